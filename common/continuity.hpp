@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Continuity of a stream of samples: what is lost, what restarted, what is out of order.
+#pragma once
+
+#include <cstdint>
+
+#include "common/flags.hpp"
+#include "common/sample.hpp"
+
+namespace penduline {
+
+/// Follows the sequence numbers and times of a stream.
+class Continuity {
+ public:
+  struct Verdict {
+    Flags flags = 0;         ///< kDropout, kOutOfOrder
+    std::uint64_t lost = 0;  ///< samples lost before this one
+    bool unbroken = true;    ///< follows directly on the sample before
+  };
+
+  /// Judges the next sample. The first one follows on nothing and so breaks nothing.
+  Verdict follow(const Sample& sample) {
+    Verdict verdict;
+    if (started_) {
+      if ((sample.flags & flag::kRestarted) != 0) {
+        verdict.unbroken = false;
+      } else if (sample.seq <= last_seq_ || sample.t_us <= last_t_us_) {
+        verdict = {.flags = flag::kOutOfOrder, .unbroken = false};
+      } else if (sample.seq != last_seq_ + 1) {
+        verdict = {.flags = flag::kDropout, .lost = sample.seq - last_seq_ - 1, .unbroken = false};
+      }
+    }
+    started_ = true;
+    last_seq_ = sample.seq;
+    last_t_us_ = sample.t_us;
+    return verdict;
+  }
+
+ private:
+  bool started_ = false;
+  std::uint64_t last_seq_ = 0;
+  std::int64_t last_t_us_ = 0;
+};
+
+}  // namespace penduline

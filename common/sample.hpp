@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sample: one paired reading of all sensors, as the device sent it and as a recording keeps it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/flags.hpp"
+
+namespace penduline {
+
+/// The most sensors that one rig may have.
+inline constexpr std::size_t kMaxSensors = 8;
+
+/// Mean counts of one sensor over the sampling window.
+struct Reading {
+  std::int32_t on = 0;   ///< with the emitter lit
+  std::int32_t off = 0;  ///< with the emitter dark (ambient light), 0 where it cannot be switched
+};
+
+/// One paired reading of all sensors.
+struct Sample {
+  std::uint64_t seq = 0;  ///< counted on the device from 0, never repeated within one boot
+  std::int64_t t_us = 0;  ///< device clock at the middle of the sampling window
+  std::array<Reading, kMaxSensors> readings{};
+  std::uint32_t missing = 0;  ///< bit i set: sensor i has no reading in this sample
+  Flags flags = 0;            ///< the device's own (bits 0..7)
+
+  [[nodiscard]] constexpr bool has_reading(std::size_t sensor) const {
+    return ((missing >> sensor) & 1U) == 0;
+  }
+};
+
+/// What holds for all samples of a stream: how the device takes them.
+template <class Scalar>
+struct Acquisition {
+  Scalar rate_hz = 20;
+  Scalar full_scale_counts = 65535;
+  Scalar reference_v = Scalar(3.3);
+  std::size_t sensor_count = 2;
+};
+
+/// A sensor's signal in volts: what its emitter adds to the ambient light. Slightly negative where
+/// nothing reflects and the noise says so.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar signal_v(Reading reading, const Acquisition<Scalar>& acquisition) {
+  const std::int64_t difference = std::int64_t{reading.on} - reading.off;
+  return static_cast<Scalar>(difference) *
+         (acquisition.reference_v / acquisition.full_scale_counts);
+}
+
+}  // namespace penduline
