@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cells of a line of text and the numbers in them.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace penduline {
+
+/// Text without the blanks around it.
+[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// The cells of a line, trimmed; each of `separators` ends one.
+[[nodiscard]] inline std::vector<std::string_view> split_cells(std::string_view line,
+                                                               std::string_view separators) {
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0;;) {
+    const std::size_t stop = line.find_first_of(separators, begin);
+    cells.push_back(trimmed(line.substr(begin, stop - begin)));
+    if (stop == std::string_view::npos) {
+      return cells;
+    }
+    begin = stop + 1;
+  }
+}
+
+/// Whether a cell says that there is no number: empty, or `nan` as pandas and MATLAB write it.
+[[nodiscard]] inline bool is_missing(std::string_view cell) {
+  const std::string_view text = trimmed(cell);
+  return text.empty() || text == "nan" || text == "NaN" || text == "NAN";
+}
+
+/// The number in a cell, blanks around it allowed; none where the cell is not one number.
+template <class Number>
+[[nodiscard]] std::optional<Number> parse_number(std::string_view cell) {
+  const std::string_view text = trimmed(cell);
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+}  // namespace penduline
