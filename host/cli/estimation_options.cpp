@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// From options to a session.
+#include "host/cli/estimation_options.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "hal/replay/recording_format.hpp"
+#include "host/cli/log.hpp"
+#include "host/output/text_file.hpp"
+#include "host/session/session.hpp"
+#include "host/session/stop_signal.hpp"
+
+namespace penduline {
+namespace {
+
+/// Writes estimates to a file, live ones row by row.
+class EstimateOutput final : public EstimateSink {
+ public:
+  EstimateOutput(TextFile file, EstimateFormat format, bool live)
+      : file_(std::move(file)), format_(format), live_(live) {
+    append_estimate_head(file_.text(), format_);
+  }
+
+  tl::expected<void, Error> take(const Estimate<double>& estimate) override {
+    append_estimate_row(file_.text(), estimate, format_);
+    return live_ ? file_.flush() : file_.flush_if_large();
+  }
+
+  tl::expected<void, Error> flush() { return file_.flush(); }
+
+ private:
+  TextFile file_;
+  EstimateFormat format_;
+  bool live_;
+};
+
+/// The recording of a run: written through at every sample, so that a crash costs no whole line.
+tl::expected<TextFile, Error> start_recording(const std::string& path,
+                                              const RecordingHeader& header) {
+  auto file = TextFile::create(path);
+  if (file) {
+    file->text() += recording_head(header);
+  }
+  return file;
+}
+
+tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
+                                                  const EstimationRun& run, const RigFile& rig,
+                                                  Source& source) {
+  const RecordingHeader header = source.header();
+  auto estimator = make_estimator(options.estimator, rig.rig, header.acquisition);
+  if (!estimator) {
+    return tl::unexpected(estimator.error());
+  }
+  const std::array<std::string, 4> paths{run.input_path == "-" ? "" : run.input_path,
+                                         options.rig_path, options.output_path, run.record_path};
+  if (const auto distinct = require_distinct_files(paths); !distinct) {
+    return tl::unexpected(distinct.error());
+  }
+  auto file = TextFile::create(options.output_path);
+  if (!file) {
+    return tl::unexpected(file.error());
+  }
+  EstimateOutput output(std::move(*file), options.format, run.live);
+  SessionParts parts{.source = source,
+                     .estimator = **estimator,
+                     .output = output,
+                     .recorder = {},
+                     .warn = log_warning};
+  std::optional<TextFile> recording;
+  if (!run.record_path.empty()) {
+    auto started = start_recording(run.record_path, header);
+    if (!started) {
+      return tl::unexpected(started.error());
+    }
+    recording.emplace(std::move(*started));
+    parts.recorder = [&](const Sample& sample) {
+      append_recording_row(recording->text(), sample, header.acquisition.sensor_count);
+      return recording->flush();
+    };
+  }
+  const StopSignal stop;
+  auto result =
+      run_session(parts, {.paced = run.paced, .rows_on_stdout = options.output_path == "-"}, stop);
+  // What was estimated before a failure is not thrown away.
+  if (const auto flushed = output.flush(); !flushed && result) {
+    return tl::unexpected(flushed.error());
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_rig_option(CLI::App& command, std::string& path) {
+  command
+      .add_option(
+          "--rig", path,
+          "The rig file: geometry, responses, filter (docs/formats.md; examples in docs/rigs)")
+      ->required()
+      ->type_name("FILE");
+}
+
+void add_estimation_options(CLI::App& command, EstimationOptions& options) {
+  const std::map<std::string, EstimatorKind> estimators{{"gn", EstimatorKind::kGaussNewton},
+                                                        {"paper", EstimatorKind::kPaper}};
+  const std::map<std::string, EstimateFormat> formats{{"csv", EstimateFormat::kCsv},
+                                                      {"jsonl", EstimateFormat::kJsonLines}};
+  add_rig_option(command, options.rig_path);
+  command
+      .add_option("--estimator", options.estimator.kind,
+                  "gn: filter, response, Gauss-Newton, row by row;\n"
+                  "paper: the paper's Appendix A to the letter, after the last sample")
+      ->transform(CLI::CheckedTransformer(estimators).description(""))
+      ->type_name("gn|paper")
+      ->default_str("gn");
+  command.add_flag("--align", options.estimator.align,
+                   "With paper: take the filter's delay out of the rows' times (gn always does)");
+  command.add_option("--format", options.format, "How the estimates are written")
+      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->type_name("csv|jsonl")
+      ->default_str("csv");
+  command.add_option("-o,--output", options.output_path, "Where to; - is the standard output")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command.add_flag("--strict", options.strict,
+                   "End with status 3 where the data had flagged problems");
+  command.parse_complete_callback([&options] {
+    if (options.estimator.align && options.estimator.kind != EstimatorKind::kPaper) {
+      throw CLI::ValidationError("--align",
+                                 "is for --estimator paper; the rows of gn are aligned already");
+    }
+  });
+}
+
+tl::expected<RigFile, Error> load_rig(const std::string& path) {
+  auto rig = read_rig_file(path);
+  if (rig) {
+    for (const std::string& complaint : rig->complaints) {
+      log_warning(complaint);
+    }
+  }
+  return rig;
+}
+
+ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
+                    tl::expected<std::unique_ptr<Source>, Error> source) {
+  if (!source) {
+    return log_failure(source.error());
+  }
+  const auto result = run_estimation(options, run, rig, **source);
+  if (!result) {
+    return log_failure(result.error());
+  }
+  log_info(result->summary.text());
+  return options.strict && result->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
+}
+
+}  // namespace penduline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that `replay` and `run` share, and the work behind both.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "host/cli/exit_status.hpp"
+#include "host/estimator/estimator.hpp"
+#include "host/output/estimate_writer.hpp"
+#include "host/rig_file.hpp"
+#include "host/source/source.hpp"
+
+namespace penduline {
+
+struct EstimationOptions {
+  std::string rig_path;
+  EstimatorOptions estimator;
+  EstimateFormat format = EstimateFormat::kCsv;
+  std::string output_path = "-";
+  bool strict = false;
+};
+
+/// How the samples come and what else happens to them.
+struct EstimationRun {
+  bool live = false;          ///< each row is written out at once
+  bool paced = false;         ///< each sample waits for its time
+  std::string record_path{};  ///< "": no recording
+  std::string input_path{};   ///< "": the samples come from no file
+};
+
+void add_estimation_options(CLI::App& command, EstimationOptions& options);
+
+/// Adds `--rig` to a command that needs one.
+void add_rig_option(CLI::App& command, std::string& path);
+
+/// Reads a rig and warns of its unknown keys.
+[[nodiscard]] tl::expected<RigFile, Error> load_rig(const std::string& path);
+
+/// Runs a session on an opened source and reports it on stderr.
+ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
+                    tl::expected<std::unique_ptr<Source>, Error> source);
+
+}  // namespace penduline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `penduline`.
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/log.hpp"
+
+namespace penduline {
+namespace {
+
+int run_program(int argc, char** argv) {
+  start_log();
+  ExitStatus status = ExitStatus::kDone;
+  CLI::App program(
+      "Penduline measures the two angles of a spherical pendulum without touching it.\n"
+      "Angles go to stdout, everything else to stderr.",
+      "penduline");
+  program.set_version_flag("--version", "penduline " PENDULINE_VERSION);
+  program.require_subcommand(1);
+  add_replay_command(program, status);
+  add_run_command(program, status);
+  add_simulate_command(program, status);
+  program.footer(
+      "Exit status: 0 done; 1 failed, with one line on stderr; 2 wrong usage; 3 finished, but the\n"
+      "data had flagged problems and --strict was given. 'penduline COMMAND --help' teaches more.");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+    program.exit(error);
+    return static_cast<int>(asked_for ? ExitStatus::kDone : ExitStatus::kUsage);
+  }
+  return static_cast<int>(status);
+}
+
+}  // namespace
+}  // namespace penduline
+
+int main(int argc, char** argv) {
+  try {
+    return penduline::run_program(argc, argv);
+  } catch (const std::exception& error) {
+    return static_cast<int>(penduline::log_failure({error.what()}));
+  }
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes estimates as text, one line each: CSV or JSON lines.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/estimate.hpp"
+
+namespace penduline {
+
+enum class EstimateFormat {
+  kCsv,        ///< a line of names, then rows; what an estimate does not have is an empty cell
+  kJsonLines,  ///< one object a line; what an estimate does not have is null
+};
+
+/// Appends what stands before the first estimate.
+void append_estimate_head(std::string& text, EstimateFormat format);
+
+/// Appends one estimate as a line.
+void append_estimate_row(std::string& text, const Estimate<double>& estimate,
+                         EstimateFormat format);
+
+}  // namespace penduline

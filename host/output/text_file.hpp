@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text file or the standard output, written through one buffer, whole lines at a time.
+#pragma once
+
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "hal/error.hpp"
+
+namespace penduline {
+
+/// Appends text; what is appended between two flushes reaches the file in order and complete, or
+/// the flush says why not.
+class TextFile {
+ public:
+  /// Creates or empties the file; the path "-" is the standard output.
+  static tl::expected<TextFile, Error> create(const std::string& path);
+
+  TextFile(const TextFile&) = delete;
+  TextFile(TextFile&& other) noexcept;
+  TextFile& operator=(const TextFile&) = delete;
+  TextFile& operator=(TextFile&&) = delete;
+  ~TextFile();
+
+  /// Where to append; call `flush_if_large` after each line.
+  std::string& text() { return text_; }
+  tl::expected<void, Error> flush_if_large();
+  tl::expected<void, Error> flush();
+
+ private:
+  TextFile(std::string name, int file);
+
+  std::string name_;
+  int file_;
+  std::string text_;
+};
+
+/// Fails where one path of `paths` stands for a file that another does: what is read would be
+/// overwritten, or two texts would mix. "" does not count, devices may stand there twice.
+[[nodiscard]] tl::expected<void, Error> require_distinct_files(std::span<const std::string> paths);
+
+}  // namespace penduline

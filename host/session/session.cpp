@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop that every sample goes through on the host.
+#include "host/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+
+#include "host/session/progress_bar.hpp"
+
+namespace penduline {
+namespace {
+
+/// Counts the estimates on their way to the output and warns of each kind of problem once.
+class CountingSink final : public EstimateSink {
+ public:
+  CountingSink(const SessionParts& parts, Summary& summary) : parts_(parts), summary_(summary) {}
+
+  void set_newest(const Sample& sample) { newest_ = sample; }
+
+  tl::expected<void, Error> take(const Estimate<double>& estimate) override {
+    if (const Flags fresh = summary_.count(estimate) & ~flag::kOrdinary; fresh != 0) {
+      warn(fresh, estimate);
+    }
+    auto taken = parts_.output.take(estimate);
+    output_failed_ = !taken;
+    return taken;
+  }
+
+  [[nodiscard]] bool output_failed() const { return output_failed_; }
+
+ private:
+  void warn(Flags fresh, const Estimate<double>& estimate) const {
+    // An offline estimator's rows come when the source is long past them.
+    const std::string place =
+        estimate.seq == newest_.seq
+            ? fmt::format("{}: seq {}, t_us {}", parts_.source.place(), newest_.seq, newest_.t_us)
+            : fmt::format("seq {}", estimate.seq);
+    for (const FlagDescription& description : kFlagDescriptions) {
+      if ((fresh & description.bit) != 0) {
+        parts_.warn(fmt::format("{}: {} [{}]; further ones are counted", place, description.meaning,
+                                description.name));
+        fresh &= ~description.bit;
+      }
+    }
+    if (fresh != 0) {
+      parts_.warn(fmt::format("{}: flags {} are not known to this version", place, fresh));
+    }
+  }
+
+  const SessionParts& parts_;
+  Summary& summary_;
+  Sample newest_;
+  bool output_failed_ = false;
+};
+
+/// Keeps to the samples' own times.
+class Pacer {
+ public:
+  explicit Pacer(const StopSignal& stop) : stop_(stop) {}
+
+  void wait_for(const Sample& sample) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!started_ || sample.t_us < last_t_us_) {
+      started_ = true;
+      origin_ = now - std::chrono::microseconds(sample.t_us);
+    }
+    last_t_us_ = sample.t_us;
+    stop_.sleep_until(origin_ + std::chrono::microseconds(sample.t_us));
+  }
+
+ private:
+  const StopSignal& stop_;
+  bool started_ = false;
+  std::chrono::steady_clock::time_point origin_;  ///< of device time 0
+  std::int64_t last_t_us_ = 0;
+};
+
+}  // namespace
+
+tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
+                                               const SessionOptions& options,
+                                               const StopSignal& stop) {
+  constexpr std::uint64_t kSamplesPerLook = 1024;
+  SessionResult result;
+  CountingSink sink(parts, result.summary);
+  Pacer pacer(stop);
+  ProgressBar progress(options.rows_on_stdout);
+  Sample sample;
+  for (std::uint64_t count = 0; !stop.requested(); ++count) {
+    const auto more = parts.source.read(sample);
+    if (!more) {
+      return tl::unexpected(more.error());
+    }
+    if (!*more) {
+      break;
+    }
+    if (options.paced) {
+      pacer.wait_for(sample);
+      if (stop.requested()) {
+        break;
+      }
+    }
+    sink.set_newest(sample);
+    result.summary.count(sample);
+    if (parts.recorder) {
+      if (const auto recorded = parts.recorder(sample); !recorded) {
+        return tl::unexpected(recorded.error());
+      }
+    }
+    if (const auto taken = parts.estimator.take(sample, sink); !taken) {
+      return sink.output_failed()
+                 ? tl::unexpected(taken.error())
+                 : failure(fmt::format("{}: {}", parts.source.place(), taken.error().message));
+    }
+    if (count % kSamplesPerLook == 0 && progress.due()) {
+      progress.draw(parts.source.progress());
+    }
+  }
+  if (const auto finished = parts.estimator.finish(sink); !finished) {
+    return tl::unexpected(finished.error());
+  }
+  const auto complaints = parts.source.complaints();
+  for (const std::string& complaint : complaints) {
+    parts.warn(complaint);
+  }
+  result.doubtful = result.summary.has_problems() || !complaints.empty();
+  return result;
+}
+
+}  // namespace penduline

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session: samples from a source through an estimator to the outputs, until one of them ends.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "host/estimator/estimator.hpp"
+#include "host/output/estimate_sink.hpp"
+#include "host/session/stop_signal.hpp"
+#include "host/session/summary.hpp"
+#include "host/source/source.hpp"
+
+namespace penduline {
+
+/// What takes part in a session.
+struct SessionParts {
+  Source& source;
+  Estimator& estimator;
+  EstimateSink& output;
+  /// Told every sample before it is used; may be empty.
+  std::function<tl::expected<void, Error>(const Sample&)> recorder;
+  /// Told, once for each kind, what is doubtful in the data.
+  std::function<void(const std::string&)> warn;
+};
+
+struct SessionOptions {
+  bool paced = false;           ///< hand on each sample at its own time, not as fast as possible
+  bool rows_on_stdout = false;  ///< where they show the progress on a terminal
+};
+
+struct SessionResult {
+  Summary summary;
+  bool doubtful = false;  ///< a problem was flagged, or the source complained
+};
+
+/// Runs until the source ends, `stop` is requested or something fails. Ending early by request is
+/// no failure.
+[[nodiscard]] tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
+                                                             const SessionOptions& options,
+                                                             const StopSignal& stop);
+
+}  // namespace penduline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counting a session.
+#include "host/session/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+namespace penduline {
+
+void Summary::count(const Sample& sample) {
+  const Continuity::Verdict verdict = continuity_.follow(sample);
+  lost_ += verdict.lost;
+  if (samples_ > 0 && verdict.unbroken) {
+    unbroken_us_ += sample.t_us - last_t_us_;
+    ++unbroken_steps_;
+  }
+  last_t_us_ = sample.t_us;
+  ++samples_;
+}
+
+Flags Summary::count(const Estimate<double>& estimate) {
+  with_angles_ += estimate.attitude ? 1U : 0U;
+  const Flags fresh = estimate.flags & ~seen_;
+  seen_ |= estimate.flags;
+  if (estimate.flags != 0) {
+    for (std::size_t i = 0; i < kFlagDescriptions.size(); ++i) {
+      flagged_[i] += (estimate.flags & kFlagDescriptions[i].bit) != 0 ? 1U : 0U;
+    }
+  }
+  return fresh;
+}
+
+std::optional<double> Summary::rate_hz() const {
+  if (unbroken_us_ == 0) {
+    return std::nullopt;
+  }
+  return 1e6 * static_cast<double>(unbroken_steps_) / static_cast<double>(unbroken_us_);
+}
+
+std::string Summary::text() const {
+  std::string text = fmt::format("{} samples", samples_);
+  if (const auto rate = rate_hz()) {
+    text += fmt::format(" at {:.3f} Hz", *rate);
+  }
+  text += fmt::format(", {} lost, {} with angles", lost_, with_angles_);
+  std::string_view separator = "; flagged: ";
+  for (std::size_t i = 0; i < kFlagDescriptions.size(); ++i) {
+    if (flagged_[i] > 0) {
+      text += fmt::format("{}{} {}", separator, flagged_[i], kFlagDescriptions[i].name);
+      separator = ", ";
+    }
+  }
+  return text;
+}
+
+}  // namespace penduline
