@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+# `penduline run`: the live pipeline at the real rate, Ctrl-C, and recordings that replay exactly.
+import signal
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, RIGS, ProgramTest, run
+
+
+class RunTest(ProgramTest):
+    def test_a_recording_of_a_run_replays_byte_for_byte(self):
+        rig = RIGS / "tcrt5000.toml"
+        recording = self.folder / "rec.csv"
+        live = run("run", "sim:", "--rig", rig, "--seconds", 10, "--fast", "--record", recording)
+        self.assertEqual(run("replay", recording, "--rig", rig).stdout, live.stdout)
+        self.assertEqual(run("run", f"file:{recording}", "--fast", "--rig", rig).stdout, live.stdout)
+
+    def test_keeps_to_the_real_rate(self):
+        start = time.monotonic()
+        run("run", "sim:", "--rig", RIGS / "paper.toml", "--seconds", 1)
+        # 20 samples are 19 periods of 50 ms; a busy machine may only be late.
+        self.assertGreater(time.monotonic() - start, 0.95)
+
+    def stopped_by(self, stop):
+        """Starts an endless run, stops it at its tenth row and returns it ended."""
+        process = subprocess.Popen([PROGRAM, "run", "sim:", "--rig", RIGS / "paper.toml", "--rate",
+                                    "100"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        first = [process.stdout.readline() for _ in range(10)]
+        process.send_signal(stop)
+        out, err = process.communicate(timeout=30)
+        return process.returncode, "".join(first) + out, err
+
+    def test_rows_come_live_and_ctrl_c_ends_with_a_summary(self):
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            status, out, err = self.stopped_by(stop)
+            self.assertEqual(status, 0)
+            self.assertTrue(out.endswith("\n"))
+            self.assertIn(f"info: {len(out.splitlines()) - 1} samples at 100.000 Hz, 0 lost", err)
+
+    def test_ctrl_c_ends_a_wait_for_the_standard_input(self):
+        process = subprocess.Popen([PROGRAM, "replay", "-", "--rig", RIGS / "paper.toml"],
+                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        process.stdin.write("# penduline_recording = 1\n# rate_hz = 20\n# full_scale_counts = 65535\n"
+                            "# reference_v = 3.3\nseq,t_us,x_on,x_off,y_on,y_off,flags\n"
+                            "0,0,33000,0,33000,0,0\n")
+        process.stdin.flush()
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=30), 0)
+        self.assertIn("info: 1 samples", process.stderr.read())
+        process.stdin.close()
+        process.stdout.close()
+        process.stderr.close()
+
+    def test_an_unknown_source_says_which_there_are(self):
+        done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=1)
+        self.assertEqual(done.stderr, "error: found source 'magic:', expected sim: or file:PATH\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

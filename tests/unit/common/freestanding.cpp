@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// All of common for both scalars, compiled as firmware is: no exceptions, no RTTI, no hidden
+// double.
+#include "common/bisection.hpp"
+#include "common/closed_form.hpp"
+#include "common/continuity.hpp"
+#include "common/denavit_hartenberg.hpp"
+#include "common/disc_plane.hpp"
+#include "common/dynamics.hpp"
+#include "common/estimate.hpp"
+#include "common/fir.hpp"
+#include "common/flags.hpp"
+#include "common/gauss_newton.hpp"
+#include "common/monotone_cubic.hpp"
+#include "common/pipeline.hpp"
+#include "common/response.hpp"
+#include "common/rig.hpp"
+#include "common/sample.hpp"
+#include "common/window_flags.hpp"
+#include "common/window_moment.hpp"
+
+namespace penduline {
+
+template class ClosedForm<float>;
+template class ClosedForm<double>;
+template bool determines_tilt(const SensorLayout<float>&);
+template bool determines_tilt(const SensorLayout<double>&);
+
+template Transform<float> sensor_x_chain(const Angles<float>&, float, float, float);
+template Transform<double> sensor_x_chain(const Angles<double>&, double, double, double);
+template Transform<float> sensor_y_chain(const Angles<float>&, float, float, float);
+template Transform<double> sensor_y_chain(const Angles<double>&, double, double, double);
+
+template class DiscPlane<float>;
+template class DiscPlane<double>;
+template Slopes<float> slopes_of(const Angles<float>&);
+template Slopes<double> slopes_of(const Angles<double>&);
+template Angles<float> angles_of(const Slopes<float>&);
+template Angles<double> angles_of(const Slopes<double>&);
+template bool beam_meets_disc(const SensorLayout<float>&, std::size_t, float, float);
+template bool beam_meets_disc(const SensorLayout<double>&, std::size_t, double, double);
+
+template SwingState<float> swing_derivative(const SwingState<float>&, const Pendulum<float>&);
+template SwingState<double> swing_derivative(const SwingState<double>&, const Pendulum<double>&);
+template float energy_j(const SwingState<float>&, const Pendulum<float>&);
+template double energy_j(const SwingState<double>&, const Pendulum<double>&);
+template float small_swing_hz(const Pendulum<float>&);
+template double small_swing_hz(const Pendulum<double>&);
+
+template struct Estimate<float>;
+template struct Estimate<double>;
+
+template FirTaps<float> design_lowpass(const FilterDesign<float>&);
+template FirTaps<double> design_lowpass(const FilterDesign<double>&);
+template float gain_at(const FirTaps<float>&, float);
+template double gain_at(const FirTaps<double>&, double);
+template class FirFilter<float>;
+template class FirFilter<double>;
+template FilterDesign<float> default_filter(float, float);
+template FilterDesign<double> default_filter(double, double);
+
+template class GaussNewton<float>;
+template class GaussNewton<double>;
+
+template class MonotoneCubic<float>;
+template class MonotoneCubic<double>;
+
+template class Pipeline<float>;
+template class Pipeline<double>;
+
+template struct LinearResponse<float>;
+template struct LinearResponse<double>;
+template struct TableResponse<float>;
+template struct TableResponse<double>;
+template struct InverseSquareResponse<float>;
+template struct InverseSquareResponse<double>;
+template struct PolynomialResponse<float>;
+template struct PolynomialResponse<double>;
+template struct Response<float>;
+template struct Response<double>;
+
+template struct Rig<float>;
+template struct Rig<double>;
+
+template float signal_v(Reading, const Acquisition<float>&);
+template double signal_v(Reading, const Acquisition<double>&);
+
+}  // namespace penduline

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of a session: every sample to its estimate, and every fault told once.
+#include "host/session/session.hpp"
+
+#include <catch2/catch.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/unit/hal/simulated_rigs.hpp"
+#include "tests/unit/host/scripted_source.hpp"
+
+namespace {
+
+using namespace penduline;
+using namespace penduline::test;
+
+using Lines = std::vector<std::string>;
+
+/// What a session did.
+struct Run {
+  std::vector<Estimate<double>> estimates;
+  Lines warnings;
+  std::string error;
+  std::string summary;
+  bool doubtful = false;
+};
+
+/// Runs a source through an estimator of the paper's rig; `gn` without a filter, so that every row
+/// stands for its own sample.
+Run run(ScriptedSource& source, EstimatorKind kind = EstimatorKind::kGaussNewton) {
+  Rig<double> rig = paper_rig();
+  if (kind == EstimatorKind::kGaussNewton) {
+    rig.filter = FilterDesign<double>{.order = 0, .cutoff_of_nyquist = 1};
+  }
+  const auto estimator = make_estimator({.kind = kind}, rig, {}).value();
+  KeepingSink sink;
+  Run done;
+  const SessionParts parts{.source = source,
+                           .estimator = *estimator,
+                           .output = sink,
+                           .recorder = {},
+                           .warn = [&](const std::string& text) { done.warnings.push_back(text); }};
+  const auto result = run_session(parts, {}, StopSignal());
+  done.estimates = sink.estimates;
+  if (result) {
+    done.summary = result->summary.text();
+    done.doubtful = result->doubtful;
+  } else {
+    done.error = result.error().message;
+  }
+  return done;
+}
+
+Run run(std::vector<Sample> samples, EstimatorKind kind = EstimatorKind::kGaussNewton) {
+  ScriptedSource source(std::move(samples));
+  return run(source, kind);
+}
+
+/// Samples at rest with these numbers.
+std::vector<Sample> numbered(std::initializer_list<std::uint64_t> seqs) {
+  std::vector<Sample> samples;
+  for (const std::uint64_t seq : seqs) {
+    samples.push_back(rest_sample(seq));
+  }
+  return samples;
+}
+
+TEST_CASE("A session hands one estimate on for each sample, in order", "[session]") {
+  const Run done = run(rest_samples(50));
+  REQUIRE(done.estimates.size() == 50);
+  for (std::size_t i = 0; i < 50; ++i) {
+    CHECK(done.estimates[i].seq == i);
+    CHECK(done.estimates[i].attitude.has_value());
+  }
+  CHECK(done.summary == "50 samples at 20.000 Hz, 0 lost, 50 with angles");
+}
+
+TEST_CASE("A session without faults warns of nothing", "[session]") {
+  const Run done = run(rest_samples(50));
+  CHECK(done.warnings.empty());
+  CHECK_FALSE(done.doubtful);
+}
+
+TEST_CASE("A source without samples makes an empty session", "[session]") {
+  const Run done = run(rest_samples(0));
+  CHECK(done.error.empty());
+  CHECK(done.estimates.empty());
+  CHECK(done.summary == "0 samples, 0 lost, 0 with angles");
+}
+
+TEST_CASE("Dropouts are told once, with the place, and counted", "[session]") {
+  const Run done = run(numbered({0, 1, 5, 6, 9, 10}));
+  CHECK(done.warnings == Lines{"script:3: seq 5, t_us 250000: samples are lost before this one "
+                               "[dropout]; further ones are counted"});
+  CHECK(done.summary == "6 samples at 20.000 Hz, 5 lost, 6 with angles; flagged: 2 dropout");
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("Samples out of order are told once, with the place, and counted", "[session]") {
+  const Run done = run(numbered({0, 1, 2, 1, 2, 3, 3}));
+  CHECK(done.warnings == Lines{"script:4: seq 1, t_us 50000: seq or t_us went back although the "
+                               "device did not restart [out_of_order]; further ones are counted"});
+  CHECK(done.summary == "7 samples at 20.000 Hz, 0 lost, 7 with angles; flagged: 2 out_of_order");
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("A time that goes back is out of order although seq goes on", "[session]") {
+  std::vector<Sample> samples = rest_samples(3);
+  samples[2].t_us = 49'999;
+  CHECK(run(samples).warnings.size() == 1);
+}
+
+TEST_CASE("Missing readings are told once, with the place, and counted", "[session]") {
+  std::vector<Sample> samples = rest_samples(5);
+  samples[2].missing = 0b01;
+  samples[3].missing = 0b10;
+  const Run done = run(samples);
+  CHECK(done.warnings == Lines{"script:3: seq 2, t_us 100000: the sample lacks a sensor's reading "
+                               "[missing]; further ones are counted"});
+  CHECK(done.summary == "5 samples at 20.000 Hz, 0 lost, 3 with angles; flagged: 2 missing");
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("A device that starts and a filter that fills are ordinary", "[session]") {
+  std::vector<Sample> samples = rest_samples(30);
+  samples[0].flags = flag::kRestarted;
+  const Run done = run(samples, EstimatorKind::kPaper);
+  CHECK(done.warnings.empty());
+  CHECK_FALSE(done.doubtful);
+  CHECK(done.summary ==
+        "30 samples at 20.000 Hz, 0 lost, 2 with angles; flagged: 1 restarted, 28 filling");
+}
+
+TEST_CASE("A device that restarts midway is counted and neither lost nor out of order",
+          "[session]") {
+  std::vector<Sample> samples = numbered({7, 8, 0, 1});
+  samples[2].flags = flag::kRestarted;
+  CHECK(run(samples).summary ==
+        "4 samples at 20.000 Hz, 0 lost, 4 with angles; flagged: 1 restarted");
+}
+
+TEST_CASE("Each kind of fault is told, though they come at once", "[session]") {
+  std::vector<Sample> samples = numbered({0, 1, 5});
+  samples[2].missing = 0b01;
+  samples[2].flags = flag::kOverrun;
+  CHECK(run(samples).warnings.size() == 3);
+}
+
+TEST_CASE("A flag of a newer device is told, too", "[session]") {
+  std::vector<Sample> samples = rest_samples(3);
+  samples[1].flags = 1U << 7U;
+  const Run done = run(samples);
+  CHECK(done.doubtful);
+  REQUIRE(done.warnings.size() == 1);
+  CHECK(done.warnings[0].starts_with("script:2: seq 1, t_us 50000: "));
+}
+
+TEST_CASE("An offline estimator's fault is told by its sample, not by the end of the source",
+          "[session]") {
+  std::vector<Sample> samples = rest_samples(40);
+  samples.erase(samples.begin() + 30, samples.begin() + 33);
+  CHECK(run(samples, EstimatorKind::kPaper).warnings ==
+        Lines{"seq 33: samples are lost before this one [dropout]; further ones are counted"});
+}
+
+TEST_CASE("What the source complains of is told and makes the session doubtful", "[session]") {
+  ScriptedSource source(rest_samples(3));
+  source.complaints_ = {"script:4: the last line is cut short"};
+  const Run done = run(source);
+  CHECK(done.warnings == source.complaints_);
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("A source that fails ends the session with its own words", "[session]") {
+  ScriptedSource source(rest_samples(5));
+  source.failure_at = 3;
+  const Run done = run(source);
+  CHECK(done.error == "script:3: the script fails here");
+  CHECK(done.estimates.size() == 3);
+}
+
+TEST_CASE("An estimator that fails is told with the place", "[session]") {
+  std::vector<Sample> samples = rest_samples(40);
+  samples[30].missing = 0b01;
+  CHECK(run(samples, EstimatorKind::kPaper).error ==
+        "script:31: seq 30: a reading is missing, and --estimator paper needs them all; "
+        "--estimator gn does not");
+}
+
+TEST_CASE("An estimator that fails at the end is told", "[session]") {
+  CHECK(run(rest_samples(3), EstimatorKind::kPaper).error ==
+        "found 3 samples, --estimator paper needs more than the 28 that it drops");
+}
+
+}  // namespace
