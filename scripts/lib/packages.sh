@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs Debian packages that are missing, saying which and why. To be sourced.
+
+BUILD_PACKAGES=(
+  g++ cmake ninja-build ccache libeigen3-dev libboost-dev libfmt-dev libspdlog-dev
+  nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
+  catch2 librapidcheck-dev python3)
+
+# install_missing WHY PACKAGE...
+install_missing() {
+  local why=$1 package
+  local -a missing=()
+  shift
+  for package in "$@"; do
+    dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null |
+      grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  echo "Installing ${missing[*]}: needed $why."
+  local -a as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "error: installing packages needs root; run as root or install sudo" >&2
+      return 1
+    }
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
