@@ -48,8 +48,9 @@ class GaussNewton {
     for (int step = 1; step < steps_; ++step) {
       squares = improve(slopes, DiscPlane<Scalar>(slopes), rise_m);
     }
-    // As squares, which the disc's plane needs: a slope may be finite and its square not.
-    if (!std::isfinite(slopes.a * slopes.a + slopes.b * slopes.b)) {
+    // The disc's plane and the residual are made of squares: a slope or a misfit may be finite and
+    // its square not.
+    if (!std::isfinite(slopes.a * slopes.a + slopes.b * slopes.b + squares)) {
       return std::nullopt;
     }
     return InverseResult<Scalar>{
