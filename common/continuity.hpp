@@ -12,9 +12,12 @@ namespace penduline {
 /// Follows the sequence numbers and times of a stream.
 class Continuity {
  public:
+  /// Samples in a row may be `longest_step_us` apart (`Acquisition::longest_step_us`).
+  explicit Continuity(std::int64_t longest_step_us) : longest_step_us_(longest_step_us) {}
+
   struct Verdict {
     Flags flags = 0;         ///< kDropout, kOutOfOrder
-    std::uint64_t lost = 0;  ///< samples lost before this one
+    std::uint64_t lost = 0;  ///< samples lost before this one, by their numbers
     bool unbroken = true;    ///< follows directly on the sample before
   };
 
@@ -28,6 +31,8 @@ class Continuity {
         verdict = {.flags = flag::kOutOfOrder, .unbroken = false};
       } else if (sample.seq != last_seq_ + 1) {
         verdict = {.flags = flag::kDropout, .lost = sample.seq - last_seq_ - 1, .unbroken = false};
+      } else if (sample.t_us - last_t_us_ > longest_step_us_) {
+        verdict = {.flags = flag::kDropout, .unbroken = false};
       }
     }
     started_ = true;
@@ -37,6 +42,7 @@ class Continuity {
   }
 
  private:
+  std::int64_t longest_step_us_;
   bool started_ = false;
   std::uint64_t last_seq_ = 0;
   std::int64_t last_t_us_ = 0;

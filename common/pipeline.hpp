@@ -34,12 +34,14 @@ class Pipeline {
  public:
   /// The rig's sensors must determine the tilt and be as many as the acquisition's.
   Pipeline(const Rig<Scalar>& rig, const Acquisition<Scalar>& acquisition)
-      : rig_(rig), acquisition_(acquisition), inverse_(rig.layout) {
+      : rig_(rig),
+        acquisition_(acquisition),
+        inverse_(rig.layout),
+        continuity_(acquisition.longest_step_us()) {
     const FirTaps<Scalar> taps = design_lowpass(
         rig.filter.value_or(default_filter(acquisition.rate_hz, small_swing_hz(rig.pendulum))));
     filters_.fill(FirFilter<Scalar>(taps));
-    const auto period_us = static_cast<std::int64_t>(Scalar(1e6) / acquisition.rate_hz);
-    moment_ = WindowMoment(taps.count, period_us);
+    moment_ = WindowMoment(taps.count, acquisition.period_us());
     window_flags_ = WindowFlags(taps.count);
   }
 

@@ -39,6 +39,15 @@ struct Acquisition {
   Scalar full_scale_counts = 65535;
   Scalar reference_v = Scalar(3.3);
   std::size_t sensor_count = 2;
+
+  /// The nominal period, rounded.
+  [[nodiscard]] constexpr std::int64_t period_us() const {
+    return static_cast<std::int64_t>(Scalar(1e6) / rate_hz + Scalar(0.5));
+  }
+  /// What two samples in a row may be apart: one and a half periods.
+  [[nodiscard]] constexpr std::int64_t longest_step_us() const {
+    return static_cast<std::int64_t>(Scalar(1.5e6) / rate_hz) + 1;
+  }
 };
 
 /// A sensor's signal in volts: what its emitter adds to the ambient light. Slightly negative where

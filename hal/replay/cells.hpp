@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -18,6 +19,13 @@ namespace penduline {
     return {};
   }
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// The start of a text that may be of any length, for messages.
+[[nodiscard]] inline std::string excerpt(std::string_view text) {
+  constexpr std::size_t kShown = 60;
+  const std::string shown(text.substr(0, kShown));
+  return text.size() > kShown ? shown + "..." : shown;
 }
 
 /// The cells of a line, trimmed; each of `separators` ends one.

@@ -27,13 +27,6 @@ constexpr double kMostReferenceV = 1e6;
 constexpr std::uint64_t kLargestExact = (std::uint64_t{1} << 53U) - 1;
 constexpr std::uint64_t kDeviceFlags = 0xff;
 
-/// The start of a text that may be of any length.
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t kShown = 60;
-  const std::string shown(text.substr(0, kShown));
-  return text.size() > kShown ? shown + "..." : shown;
-}
-
 /// How many sensors a line of column names has: those whose `_on` and `_off` are both there, in
 /// order and without a gap.
 std::size_t count_sensors(const std::vector<std::string_view>& names) {

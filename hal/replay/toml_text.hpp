@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TOML values as text, for messages.
+// TOML values as text, for headers and messages.
 #pragma once
 
 #include <toml++/toml.h>

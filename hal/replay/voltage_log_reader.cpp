@@ -136,6 +136,11 @@ tl::expected<std::optional<VoltageLogReader::Row>, Error> VoltageLogReader::next
     if (!row) {
       return tl::unexpected(row.error());
     }
+    if (*outcome == LineReader::Outcome::kCutShort) {
+      complaints_.push_back(one_line(
+          fmt::format("{}: the last line ('{}') does not end; its last number may be cut short",
+                      lines_.place(), excerpt(line))));
+    }
     return *row;
   }
 }
@@ -175,7 +180,8 @@ tl::expected<VoltageLogReader::Row, Error> VoltageLogReader::parse_row(
     const double largest = volts ? kLargestVolts : kLargestTimeUs / column.us_per_unit;
     if (!number || !(std::abs(*number) <= largest)) {
       return failure(fmt::format("{}: field '{}': found '{}', expected a number from {} to {}",
-                                 lines_.place(), column.name, cells[i], -largest, largest));
+                                 lines_.place(), column.name, excerpt(cells[i]), -largest,
+                                 largest));
     }
     if (volts) {
       row.sample.readings[column.sensor].on =

@@ -55,6 +55,8 @@ class VoltageLogReader {
 
   [[nodiscard]] std::string place() const { return lines_.place(); }
   [[nodiscard]] double progress() const { return lines_.progress(); }
+  /// What is doubtful in the file and cost no sample, in words; grows while reading.
+  [[nodiscard]] const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
   struct Row {
@@ -79,6 +81,7 @@ class VoltageLogReader {
     std::uint64_t seq;
   };
   std::optional<Place> last_;
+  std::vector<std::string> complaints_;
 };
 
 static_assert(SampleSource<VoltageLogReader>);

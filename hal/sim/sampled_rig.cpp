@@ -74,7 +74,7 @@ tl::expected<bool, Error> SampledRig::read(Sample& sample) {
 }
 
 std::string SampledRig::place() const {
-  return fmt::format("sim: seq {}", next_seq_ - 1);
+  return next_seq_ == 0 ? "sim" : fmt::format("sim: seq {}", next_seq_ - 1);
 }
 
 double SampledRig::progress() const {

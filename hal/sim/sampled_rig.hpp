@@ -27,7 +27,7 @@ class SampledRig {
   /// The true state of the pendulum at the last sample's time.
   [[nodiscard]] SwingState<double> truth() const { return rig_.truth(); }
   [[nodiscard]] double blown_up_at_s() const { return rig_.blown_up_at_s(); }
-  /// "sim: seq N" of the sample read last.
+  /// "sim: seq N" of the sample read last; "sim" before the first.
   [[nodiscard]] std::string place() const;
   [[nodiscard]] double progress() const;
 

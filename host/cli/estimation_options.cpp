@@ -57,8 +57,8 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (!estimator) {
     return tl::unexpected(estimator.error());
   }
-  const std::array<std::string, 4> paths{run.input_path == "-" ? "" : run.input_path,
-                                         options.rig_path, options.output_path, run.record_path};
+  const std::array<std::string, 4> paths{named_input(run.input_path), named_input(options.rig_path),
+                                         options.output_path, run.record_path};
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return tl::unexpected(distinct.error());
   }
@@ -85,11 +85,11 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     };
   }
   const StopSignal stop;
-  auto result =
+  SessionResult result =
       run_session(parts, {.paced = run.paced, .rows_on_stdout = options.output_path == "-"}, stop);
   // What was estimated before a failure is not thrown away.
-  if (const auto flushed = output.flush(); !flushed && result) {
-    return tl::unexpected(flushed.error());
+  if (const auto flushed = output.flush(); !flushed && !result.error) {
+    result.error = flushed.error();
   }
   return result;
 }
@@ -157,6 +157,9 @@ ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, 
     return log_failure(result.error());
   }
   log_info(result->summary.text());
+  if (result->error) {
+    return log_failure(*result->error);
+  }
   return options.strict && result->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
 }
 

@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "hal/replay/recording_format.hpp"
 #include "hal/replay/voltage_log_reader.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
+#include "host/cli/number_within.hpp"
 #include "host/source/source.hpp"
 
 namespace penduline {
@@ -16,15 +18,15 @@ namespace {
 struct ReplayOptions {
   EstimationOptions estimation;
   std::string path;
-  std::string import_columns;
+  std::optional<std::string> import_columns;
   std::optional<double> rate_hz;
 };
 
 tl::expected<std::unique_ptr<Source>, Error> open_replay(const ReplayOptions& options) {
-  if (options.import_columns.empty()) {
+  if (!options.import_columns) {
     return open_recording(options.path);
   }
-  auto layout = parse_log_layout(options.import_columns);
+  auto layout = parse_log_layout(*options.import_columns);
   if (!layout) {
     return failure("--import: " + layout.error().message);
   }
@@ -52,9 +54,12 @@ void add_replay_command(CLI::App& program, ExitStatus& status) {
       "FILE is a plain log of voltages with these columns, such as t_s,x,y or x,y:\n"
       "t_s, t_ms or t_us the time; x, y, s3, ... volts of the sensors; - a column to skip");
   import->type_name("COLUMNS");
-  command->add_option("--rate", options->rate_hz, "Sample rate in Hz of a log without times")
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "Sample rate of a log: needed without times; with them it decides what is a\n"
+                   "dropout, in place of the first two rows")
       ->needs(import)
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(kSlowestHz, kFastestHz))
       ->type_name("HZ");
   command->footer(
       "One row a sample: t_s,seq,theta1_rad,theta2_rad,x_m,y_m,z_m,... (docs/formats.md).\n"

@@ -52,7 +52,12 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "Runs until the source ends or Ctrl-C. Angles go to stdout, the summary to stderr.\n\n"
       "  penduline run sim: --rig rig.toml --case conical\n"
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv");
-  command->final_callback([options, &status] { status = run(*options); });
+  command->final_callback([options, command, &status] {
+    if (options->uri != kSimulation) {
+      refuse_simulation_options(*command, "is for the source sim: only");
+    }
+    status = run(*options);
+  });
 }
 
 }  // namespace penduline

@@ -111,7 +111,8 @@ tl::expected<std::uint64_t, Error> simulate(const SimulateOptions& options) {
   if (!rig_file) {
     return tl::unexpected(rig_file.error());
   }
-  const std::array<std::string, 3> paths{options.rig_path, options.output_path, options.truth_path};
+  const std::array<std::string, 3> paths{named_input(options.rig_path), options.output_path,
+                                         options.truth_path};
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return tl::unexpected(distinct.error());
   }

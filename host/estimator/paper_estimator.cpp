@@ -51,10 +51,11 @@ PaperEstimator::PaperEstimator(const Rig<double>& rig, const Acquisition<double>
       align_(align),
       slope_m_per_v_{linear(rig.responses[0])->slope_m_per_v,
                      linear(rig.responses[1])->slope_m_per_v},
-      inverse_(rig.layout) {
+      inverse_(rig.layout),
+      continuity_(acquisition.longest_step_us()) {
   const FirTaps<double> taps = design_lowpass(rig.filter.value_or(kPaperFilter));
   filters_.fill(FirFilter<double>(taps));
-  moment_ = WindowMoment(taps.count, std::llround(1e6 / acquisition.rate_hz));
+  moment_ = WindowMoment(taps.count, acquisition.period_us());
   window_flags_ = WindowFlags(taps.count);
 }
 

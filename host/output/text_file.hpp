@@ -36,6 +36,11 @@ class TextFile {
   std::string text_;
 };
 
+/// The path of a file to be read, for `require_distinct_files`: "" for the standard input.
+[[nodiscard]] inline std::string named_input(const std::string& path) {
+  return path == "-" ? "" : path;
+}
+
 /// Fails where one path of `paths` stands for a file that another does: what is read would be
 /// overwritten, or two texts would mix. "" does not count, devices may stand there twice.
 [[nodiscard]] tl::expected<void, Error> require_distinct_files(std::span<const std::string> paths);

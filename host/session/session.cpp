@@ -77,14 +77,11 @@ class Pacer {
   std::int64_t last_t_us_ = 0;
 };
 
-}  // namespace
-
-tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
-                                               const SessionOptions& options,
-                                               const StopSignal& stop) {
+/// Passes the samples on until the source ends, a stop is requested or something fails.
+tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionOptions& options,
+                                       const StopSignal& stop, CountingSink& sink,
+                                       Summary& summary) {
   constexpr std::uint64_t kSamplesPerLook = 1024;
-  SessionResult result;
-  CountingSink sink(parts, result.summary);
   Pacer pacer(stop);
   ProgressBar progress(options.rows_on_stdout);
   Sample sample;
@@ -103,7 +100,7 @@ tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
       }
     }
     sink.set_newest(sample);
-    result.summary.count(sample);
+    summary.count(sample);
     if (parts.recorder) {
       if (const auto recorded = parts.recorder(sample); !recorded) {
         return tl::unexpected(recorded.error());
@@ -118,14 +115,37 @@ tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
       progress.draw(parts.source.progress());
     }
   }
-  if (const auto finished = parts.estimator.finish(sink); !finished) {
-    return tl::unexpected(finished.error());
+  return {};
+}
+
+}  // namespace
+
+SessionResult run_session(const SessionParts& parts, const SessionOptions& options,
+                          const StopSignal& stop) {
+  SessionResult result{.summary = Summary(parts.source.header().acquisition)};
+  CountingSink sink(parts, result.summary);
+  auto outcome = pass_samples(parts, options, stop, sink, result.summary);
+  const bool ended = outcome && !stop.requested();
+  // An offline estimator answers now, also for what came before a failure.
+  if (!sink.output_failed()) {
+    if (const auto finished = parts.estimator.finish(sink); outcome && !finished) {
+      outcome = finished;
+    }
   }
-  const auto complaints = parts.source.complaints();
+  auto complaints = parts.source.complaints();
+  if (const auto complaint = result.summary.rate_complaint()) {
+    complaints.push_back(*complaint);
+  }
+  if (ended && result.summary.samples() == 0) {
+    complaints.push_back(parts.source.place() + ": found no sample, expected at least one");
+  }
   for (const std::string& complaint : complaints) {
     parts.warn(complaint);
   }
   result.doubtful = result.summary.has_problems() || !complaints.empty();
+  if (!outcome) {
+    result.error = outcome.error();
+  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 
@@ -32,13 +33,13 @@ struct SessionOptions {
 
 struct SessionResult {
   Summary summary;
-  bool doubtful = false;  ///< a problem was flagged, or the source complained
+  bool doubtful = false;         ///< a problem was flagged or complained of
+  std::optional<Error> error{};  ///< why it failed; the summary counts what came before
 };
 
 /// Runs until the source ends, `stop` is requested or something fails. Ending early by request is
 /// no failure.
-[[nodiscard]] tl::expected<SessionResult, Error> run_session(const SessionParts& parts,
-                                                             const SessionOptions& options,
-                                                             const StopSignal& stop);
+[[nodiscard]] SessionResult run_session(const SessionParts& parts, const SessionOptions& options,
+                                        const StopSignal& stop);
 
 }  // namespace penduline

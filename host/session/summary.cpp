@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 
 namespace penduline {
@@ -36,6 +37,16 @@ std::optional<double> Summary::rate_hz() const {
     return std::nullopt;
   }
   return 1e6 * static_cast<double>(unbroken_steps_) / static_cast<double>(unbroken_us_);
+}
+
+std::optional<std::string> Summary::rate_complaint() const {
+  constexpr double kTolerance = 0.1;
+  const auto rate = rate_hz();
+  if (!rate || std::abs(*rate / nominal_hz_ - 1) <= kTolerance) {
+    return std::nullopt;
+  }
+  return fmt::format("the samples come at {:.3f} Hz, expected their nominal {:.3f} Hz", *rate,
+                     nominal_hz_);
 }
 
 std::string Summary::text() const {

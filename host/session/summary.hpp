@@ -16,9 +16,18 @@ namespace penduline {
 
 class Summary {
  public:
+  explicit Summary(const Acquisition<double>& acquisition)
+      : nominal_hz_(acquisition.rate_hz), continuity_(acquisition.longest_step_us()) {}
+
   void count(const Sample& sample);
   /// Counts an estimate and returns its flags that had not been seen before.
   Flags count(const Estimate<double>& estimate);
+
+  [[nodiscard]] std::uint64_t samples() const { return samples_; }
+
+  /// In words, that the samples come at another rate than the nominal one, which the filters are
+  /// made for; none where they are within 10 %.
+  [[nodiscard]] std::optional<std::string> rate_complaint() const;
 
   /// Whether any flag but the ordinary ones was seen.
   [[nodiscard]] bool has_problems() const { return (seen_ & ~flag::kOrdinary) != 0; }
@@ -30,6 +39,7 @@ class Summary {
   /// Mean rate over the unbroken stretches; none before two samples in a row.
   [[nodiscard]] std::optional<double> rate_hz() const;
 
+  double nominal_hz_;
   std::uint64_t samples_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t with_angles_ = 0;

@@ -39,7 +39,9 @@ class VoltageLogSource final : public Source {
   tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
   [[nodiscard]] std::string place() const override { return reader_.place(); }
   [[nodiscard]] double progress() const override { return reader_.progress(); }
-  [[nodiscard]] std::vector<std::string> complaints() const override { return {}; }
+  [[nodiscard]] std::vector<std::string> complaints() const override {
+    return reader_.complaints();
+  }
 
  private:
   VoltageLogReader reader_;
@@ -106,7 +108,7 @@ std::string path_of(std::string_view uri) {
 tl::expected<std::unique_ptr<Source>, Error> open_source(std::string_view uri,
                                                          const Rig<double>& rig,
                                                          const SimulationSettings& settings) {
-  if (uri == "sim:") {
+  if (uri == kSimulation) {
     return std::make_unique<SimulatedSource>(rig, settings);
   }
   if (const std::string path = path_of(uri); !path.empty()) {

@@ -42,6 +42,9 @@ class Source {
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(
     const std::string& path, const VoltageLogLayout& layout);
 
+/// The URI of a simulated rig.
+inline constexpr std::string_view kSimulation = "sim:";
+
 /// Opens `file:PATH` or `sim:`; the simulation runs `rig` with `settings`. The error says what URIs
 /// there are.
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_source(

@@ -61,7 +61,8 @@ class ReplayTest(ProgramTest):
 
     def test_a_dropout_is_flagged_counted_and_not_bridged(self):
         done = self.replay(recording([*range(20), *range(23, 43)]))
-        self.assertIn("rec.csv:26: seq 23, t_us 1150000: samples are lost before this one [dropout]",
+        self.assertIn("rec.csv:26: seq 23, t_us 1150000: samples are lost before this one, or "
+                      "sampling paused [dropout]",
                       done.stderr)
         self.assertIn("40 samples at 20.000 Hz, 3 lost, 10 with angles", done.stderr)
         rows = done.stdout.splitlines()
@@ -99,7 +100,9 @@ class ReplayTest(ProgramTest):
 
     def test_rows_before_a_failure_are_written(self):
         text = recording(range(20)) + "20,abc,1,1,1,1,0\n"
-        self.assertEqual(len(self.replay(text, status=1).stdout.splitlines()), 21)
+        done = self.replay(text, status=1)
+        self.assertEqual(len(done.stdout.splitlines()), 21)
+        self.assertIn("info: 20 samples at 20.000 Hz", done.stderr)
 
     def test_missing_column(self):
         self.assert_message(recording([0]).replace("y_on,y_off", "y_on,z"),
@@ -139,6 +142,11 @@ class ReplayTest(ProgramTest):
                          "names\n")
         self.assertEqual(path.read_text(), recording(range(20)))
 
+    def test_rig_and_recording_may_come_and_angles_go_by_pipes(self):
+        path = self.write("rec.csv", recording(range(20)))
+        done = run("replay", path, "--rig", "-", input=(RIGS / "paper.toml").read_text())
+        self.assertEqual(done.stdout, self.replay(recording(range(20))).stdout)
+
     def test_a_rig_with_other_sensors_is_refused(self):
         text = recording([0]).replace("y_off,", "y_off,s3_on,s3_off,").replace(",0,0\n", ",0,1,1,0\n")
         done = self.replay(text, status=1)
@@ -148,6 +156,8 @@ class ReplayTest(ProgramTest):
         for arguments in ([], ["replay"], ["replay", "x.csv"], ["fly"],
                           ["replay", "x.csv", "--rig", "r", "--estimator", "magic"],
                           ["replay", "x.csv", "--rig", "r", "--rate", "20"],
+                          ["replay", "x.csv", "--rig", "r", "--import", "x,y", "--rate", "nan"],
+                          ["replay", "x.csv", "--rig", "r", "--import", "x,y", "--rate", "2e6"],
                           ["replay", "x.csv", "--rig", "r", "--align"]):
             with self.subTest(arguments):
                 run(*arguments, status=2)
@@ -164,6 +174,16 @@ class ReplayTest(ProgramTest):
         for ours, theirs in zip(imported.splitlines()[-1].split(","),
                                 recorded.splitlines()[-1].split(",")):
             self.assertAlmostEqual(float(ours or 0), float(theirs or 0), places=5)
+
+    def test_an_import_without_columns_is_refused(self):
+        done = self.replay("1,2\n", "--import", "", status=1)
+        self.assertIn("error: --import: found column ''", done.stderr)
+
+    def test_a_log_whose_last_line_does_not_end_is_doubtful(self):
+        done = self.replay("1,2\n" * 20 + "1,2", "--import", "x,y", "--rate", 20, "--strict",
+                           status=3)
+        self.assertIn("rec.csv:21: the last line ('1,2') does not end", done.stderr)
+        self.assertIn("21 samples", done.stderr)
 
     def test_imports_a_log_without_times(self):
         path = self.write("daq.csv", "1.66\t1.66\n" * 20)

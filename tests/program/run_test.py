@@ -55,6 +55,19 @@ class RunTest(ProgramTest):
         process.stdout.close()
         process.stderr.close()
 
+    def test_options_of_a_simulation_are_refused_for_a_recording(self):
+        recording, _ = self.simulate()
+        done = run("run", f"file:{recording}", "--noise", 0.1, "--rig", RIGS / "paper.toml", status=2)
+        self.assertIn("--noise: is for the source sim: only", done.stderr)
+
+    def test_a_failure_comes_after_what_led_to_it(self):
+        done = run("run", "sim:", "--case", 2, "--integrator", "euler", "--fast", "--rig",
+                   RIGS / "paper.toml", status=1)
+        said = [line.split(":")[0] for line in done.stderr.splitlines()]
+        self.assertEqual(said[-1], "error")
+        self.assertIn("the integrator has blown up", done.stderr)
+        self.assertIn("info: 10 samples", done.stderr)
+
     def test_an_unknown_source_says_which_there_are(self):
         done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=1)
         self.assertEqual(done.stderr, "error: found source 'magic:', expected sim: or file:PATH\n")

@@ -42,7 +42,22 @@ class SimulateTest(ProgramTest):
         done = run("simulate", "--case", 2, "--integrator", "euler", "--rig", RIGS / "paper.toml",
                    status=1)
         self.assertIn("error: sim: the integrator has run away at t = 0.500 s", done.stderr)
+        self.assertIn("warning: sim: the integrator has blown up", done.stderr)
         self.assertTrue(done.stdout.endswith("\n"))
+
+    def test_numbers_that_are_none_are_wrong_usage(self):
+        for option in ("--seconds", "--rate", "--noise", "--gap-noise", "--ambient", "--theta-deg",
+                       "--phi-deg", "--omega", "--psi", "--conversions"):
+            for number in ("nan", "inf", "1e30", "many"):
+                with self.subTest(option=option, number=number):
+                    done = run("simulate", "--rig", RIGS / "paper.toml", option, number, status=2)
+                    self.assertIn(f"{option}: found {number}, expected a number from ", done.stderr)
+
+    def test_starts_that_the_equations_do_not_have_are_wrong_usage(self):
+        for start in (["--case", "conical", "--theta-deg", 90],
+                      ["--integrator", "euler", "--theta-deg", 0]):
+            done = run("simulate", "--rig", RIGS / "paper.toml", *start, status=2)
+            self.assertIn("--theta-deg: ", done.stderr)
 
     def test_angles_come_back_from_tcrt5000_sensors_with_noise_and_ambient_light(self):
         swing = ("--theta-deg", 10, "--psi", 3)

@@ -12,9 +12,14 @@ Sample at(std::uint64_t seq, std::int64_t t_us, Flags flags = 0) {
   return {.seq = seq, .t_us = t_us, .flags = flags};
 }
 
+/// Of a stream at 20 Hz.
+Continuity at_20_hz() {
+  return Continuity(Acquisition<double>{.rate_hz = 20}.longest_step_us());
+}
+
 /// Has followed samples 10 and 11, 50 ms apart.
 Continuity at_eleven() {
-  Continuity continuity;
+  Continuity continuity = at_20_hz();
   continuity.follow(at(10, 500'000));
   continuity.follow(at(11, 550'000));
   return continuity;
@@ -27,12 +32,12 @@ void check_unbroken(const Continuity::Verdict& verdict) {
 }
 
 TEST_CASE("The first sample breaks nothing, whatever its number", "[continuity]") {
-  Continuity continuity;
+  Continuity continuity = at_20_hz();
   check_unbroken(continuity.follow(at(1234, 99)));
 }
 
 TEST_CASE("A first sample that says so has restarted nothing yet", "[continuity]") {
-  Continuity continuity;
+  Continuity continuity = at_20_hz();
   check_unbroken(continuity.follow(at(0, 50'000, flag::kRestarted)));
 }
 
@@ -49,6 +54,17 @@ TEST_CASE("A skipped number is a dropout of one", "[continuity]") {
 
 TEST_CASE("A long dropout is counted in full", "[continuity]") {
   CHECK(at_eleven().follow(at(12 + 5'000'000'000, 1'000'000)).lost == 5'000'000'000);
+}
+
+TEST_CASE("A step of one and a half periods follows on, as a late sample may be", "[continuity]") {
+  check_unbroken(at_eleven().follow(at(12, 550'000 + 75'000)));
+}
+
+TEST_CASE("A longer step is a dropout although no number is skipped", "[continuity]") {
+  const auto verdict = at_eleven().follow(at(12, 550'000 + 75'002));
+  CHECK_FALSE(verdict.unbroken);
+  CHECK(verdict.flags == flag::kDropout);
+  CHECK(verdict.lost == 0);
 }
 
 TEST_CASE("After a dropout the stream follows on from the new sample", "[continuity]") {
@@ -112,7 +128,7 @@ TEST_CASE("The device's other flags break nothing", "[continuity]") {
 }
 
 TEST_CASE("Times beyond 32 bits of microseconds follow on", "[continuity]") {
-  Continuity continuity;
+  Continuity continuity = at_20_hz();
   continuity.follow(at(85'899, 4'294'950'000));
   check_unbroken(continuity.follow(at(85'900, 4'295'000'000)));
 }

@@ -44,5 +44,17 @@ TEMPLATE_TEST_CASE("The farthest counts of 32 bits do not wrap round", "[sample]
   CHECK(signal_v(Reading{kLeast, kMost}, one_to_one) == static_cast<TestType>(-4294967295.0));
 }
 
+TEMPLATE_TEST_CASE("The nominal period is rounded to the microsecond", "[sample]", float, double) {
+  CHECK(Acquisition<TestType>{.rate_hz = 20}.period_us() == 50'000);
+  CHECK(Acquisition<TestType>{.rate_hz = 30}.period_us() == 33'333);
+  CHECK(Acquisition<TestType>{.rate_hz = 60}.period_us() == 16'667);
+}
+
+TEMPLATE_TEST_CASE("The longest step of a fast stream leaves room for whole microseconds",
+                   "[sample]", float, double) {
+  // 1.43 us: the times step by 1 or 2.
+  CHECK(Acquisition<TestType>{.rate_hz = 700'000}.longest_step_us() >= 2);
+}
+
 }  // namespace
 }  // namespace penduline::test

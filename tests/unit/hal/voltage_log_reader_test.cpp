@@ -21,6 +21,7 @@ struct LogOut {
   Lines rows;  ///< "seq t_us on on", "-" for missing volts
   std::string error;
   Acquisition<double> acquisition;
+  Lines complaints;
 };
 
 /// Reads a text as the log `log.csv` of the working directory.
@@ -31,13 +32,19 @@ LogOut read_log(const std::string& text, const std::string& columns,
   layout.rate_hz = rate_hz;
   auto reader = VoltageLogReader::open(folder.write("log.csv", text), layout);
   if (!reader) {
-    return {.rows = {}, .error = folder.relative(reader.error().message), .acquisition = {}};
+    return {.rows = {},
+            .error = folder.relative(reader.error().message),
+            .acquisition = {},
+            .complaints = {}};
   }
-  LogOut out{.rows = {}, .error = "", .acquisition = reader->acquisition()};
+  LogOut out{.rows = {}, .error = "", .acquisition = reader->acquisition(), .complaints = {}};
   for (Sample sample;;) {
     const auto more = reader->read(sample);
     if (!more || !*more) {
       out.error = more ? "" : folder.relative(more.error().message);
+      for (const std::string& complaint : reader->complaints()) {
+        out.complaints.push_back(folder.relative(complaint));
+      }
       return out;
     }
     std::string row = fmt::format("{} {}", sample.seq, sample.t_us);
@@ -134,9 +141,15 @@ TEST_CASE("Empty and NaN volts are missing readings", "[import]") {
         Lines{"0 0 100000000 -", "1 50000 - 200000000", "2 100000 - -"});
 }
 
-TEST_CASE("The last line needs no newline", "[import]") {
-  CHECK(read_log("1,2\n3,4", "x,y", 20).rows ==
-        Lines{"0 0 100000000 200000000", "1 50000 300000000 400000000"});
+TEST_CASE("A last line without newline is used, and said", "[import]") {
+  const LogOut out = read_log("1,2\n3,4", "x,y", 20);
+  CHECK(out.rows == Lines{"0 0 100000000 200000000", "1 50000 300000000 400000000"});
+  CHECK(out.complaints ==
+        Lines{"log.csv:2: the last line ('3,4') does not end; its last number may be cut short"});
+}
+
+TEST_CASE("A log whose last line ends is not complained of", "[import]") {
+  CHECK(read_log("1,2\n3,4\n", "x,y", 20).complaints.empty());
 }
 
 TEST_CASE("A jump of the time counts the samples that are lost", "[import]") {

@@ -121,7 +121,7 @@ TEST_CASE("An unknown key is complained of and the rest is read", "[rig]") {
 }
 
 TEST_CASE("Unknown keys are complained of in every section", "[rig]") {
-  CHECK(good("colour = 1\n" + std::string(kRigText)).complaints ==
+  CHECK(good(fmt::format("colour = 1\n{}", kRigText)).complaints ==
         Lines{"rig.toml:1: rig file colour: unknown key, ignored; known are disc, filter, "
               "pendulum, sensor"});
   CHECK(good(rig_with(6, "[disc]\ncolour = 1")).complaints ==
@@ -160,7 +160,7 @@ TEST_CASE("A rig file is read from disk under its name", "[rig]") {
 }
 
 TEST_CASE("A rig file may come from Windows", "[rig]") {
-  std::string text = "\xef\xbb\xbf" + std::string(kRigText);
+  std::string text = fmt::format("\xef\xbb\xbf{}", kRigText);
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2)) {
     text.insert(at, 1, '\r');
   }

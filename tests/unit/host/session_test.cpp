@@ -42,14 +42,11 @@ Run run(ScriptedSource& source, EstimatorKind kind = EstimatorKind::kGaussNewton
                            .output = sink,
                            .recorder = {},
                            .warn = [&](const std::string& text) { done.warnings.push_back(text); }};
-  const auto result = run_session(parts, {}, StopSignal());
+  const SessionResult result = run_session(parts, {}, StopSignal());
   done.estimates = sink.estimates;
-  if (result) {
-    done.summary = result->summary.text();
-    done.doubtful = result->doubtful;
-  } else {
-    done.error = result.error().message;
-  }
+  done.error = result.error.value_or(Error{}).message;
+  done.summary = result.summary.text();
+  done.doubtful = result.doubtful;
   return done;
 }
 
@@ -83,17 +80,19 @@ TEST_CASE("A session without faults warns of nothing", "[session]") {
   CHECK_FALSE(done.doubtful);
 }
 
-TEST_CASE("A source without samples makes an empty session", "[session]") {
+TEST_CASE("A source without samples is doubtful", "[session]") {
   const Run done = run(rest_samples(0));
   CHECK(done.error.empty());
   CHECK(done.estimates.empty());
+  CHECK(done.warnings == Lines{"script:0: found no sample, expected at least one"});
+  CHECK(done.doubtful);
   CHECK(done.summary == "0 samples, 0 lost, 0 with angles");
 }
 
 TEST_CASE("Dropouts are told once, with the place, and counted", "[session]") {
   const Run done = run(numbered({0, 1, 5, 6, 9, 10}));
-  CHECK(done.warnings == Lines{"script:3: seq 5, t_us 250000: samples are lost before this one "
-                               "[dropout]; further ones are counted"});
+  CHECK(done.warnings == Lines{"script:3: seq 5, t_us 250000: samples are lost before this one, "
+                               "or sampling paused [dropout]; further ones are counted"});
   CHECK(done.summary == "6 samples at 20.000 Hz, 5 lost, 6 with angles; flagged: 2 dropout");
   CHECK(done.doubtful);
 }
@@ -103,6 +102,25 @@ TEST_CASE("Samples out of order are told once, with the place, and counted", "[s
   CHECK(done.warnings == Lines{"script:4: seq 1, t_us 50000: seq or t_us went back although the "
                                "device did not restart [out_of_order]; further ones are counted"});
   CHECK(done.summary == "7 samples at 20.000 Hz, 0 lost, 7 with angles; flagged: 2 out_of_order");
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("A pause of the times is a dropout although seq goes on", "[session]") {
+  std::vector<Sample> samples = rest_samples(5);
+  samples[3].t_us += 1'000'000;
+  samples[4].t_us += 1'000'000;
+  const Run done = run(samples);
+  CHECK(done.summary == "5 samples at 20.000 Hz, 0 lost, 5 with angles; flagged: 1 dropout");
+  CHECK(done.doubtful);
+}
+
+TEST_CASE("Samples that come at another rate than the header's are told", "[session]") {
+  std::vector<Sample> samples = rest_samples(5);
+  for (Sample& sample : samples) {
+    sample.t_us /= 2;
+  }
+  const Run done = run(samples);
+  CHECK(done.warnings == Lines{"the samples come at 40.000 Hz, expected their nominal 20.000 Hz"});
   CHECK(done.doubtful);
 }
 
@@ -162,7 +180,8 @@ TEST_CASE("An offline estimator's fault is told by its sample, not by the end of
   std::vector<Sample> samples = rest_samples(40);
   samples.erase(samples.begin() + 30, samples.begin() + 33);
   CHECK(run(samples, EstimatorKind::kPaper).warnings ==
-        Lines{"seq 33: samples are lost before this one [dropout]; further ones are counted"});
+        Lines{"seq 33: samples are lost before this one, or sampling paused [dropout]; further "
+              "ones are counted"});
 }
 
 TEST_CASE("What the source complains of is told and makes the session doubtful", "[session]") {
@@ -179,6 +198,30 @@ TEST_CASE("A source that fails ends the session with its own words", "[session]"
   const Run done = run(source);
   CHECK(done.error == "script:3: the script fails here");
   CHECK(done.estimates.size() == 3);
+}
+
+TEST_CASE("A session that fails still tells its complaints and counts what came before",
+          "[session]") {
+  ScriptedSource source(rest_samples(5));
+  source.failure_at = 3;
+  source.complaints_ = {"script: something is odd"};
+  const Run done = run(source);
+  CHECK(done.warnings == source.complaints_);
+  CHECK(done.summary == "3 samples at 20.000 Hz, 0 lost, 3 with angles");
+}
+
+TEST_CASE("An offline estimator answers for what came before a failure", "[session]") {
+  ScriptedSource source(rest_samples(40));
+  source.failure_at = 35;
+  const Run done = run(source, EstimatorKind::kPaper);
+  CHECK(done.error == "script:35: the script fails here");
+  CHECK(done.summary == "35 samples at 20.000 Hz, 0 lost, 7 with angles; flagged: 28 filling");
+}
+
+TEST_CASE("Where the source and then the offline estimator fail, the source is told", "[session]") {
+  ScriptedSource source(rest_samples(5));
+  source.failure_at = 3;
+  CHECK(run(source, EstimatorKind::kPaper).error == "script:3: the script fails here");
 }
 
 TEST_CASE("An estimator that fails is told with the place", "[session]") {

@@ -62,13 +62,13 @@ std::size_t estimates_of(ScriptedSource& source, const StopSignal& stop, bool pa
                          EstimatorKind kind = EstimatorKind::kGaussNewton) {
   const auto estimator = make_estimator({.kind = kind}, paper_rig(), {}).value();
   KeepingSink sink;
-  const auto result = run_session({.source = source,
-                                   .estimator = *estimator,
-                                   .output = sink,
-                                   .recorder = {},
-                                   .warn = [](const std::string&) {}},
-                                  {.paced = paced}, stop);
-  CHECK(result);
+  const SessionResult result = run_session({.source = source,
+                                            .estimator = *estimator,
+                                            .output = sink,
+                                            .recorder = {},
+                                            .warn = [](const std::string&) {}},
+                                           {.paced = paced}, stop);
+  CHECK_FALSE(result.error);
   return sink.estimates.size();
 }
 

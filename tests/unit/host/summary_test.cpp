@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "tests/unit/host/scripted_source.hpp"
 
@@ -13,9 +14,13 @@ namespace {
 using namespace penduline;
 using namespace penduline::test;
 
+Summary at_20_hz() {
+  return Summary(Acquisition<double>{.rate_hz = 20});
+}
+
 /// Counts samples with these numbers, 20 a second.
 Summary counted(std::initializer_list<std::uint64_t> seqs) {
-  Summary summary;
+  Summary summary = at_20_hz();
   for (const std::uint64_t seq : seqs) {
     summary.count(rest_sample(seq));
   }
@@ -27,7 +32,7 @@ Estimate<double> flagged(Flags flags) {
 }
 
 TEST_CASE("Nothing counted is said so", "[session]") {
-  CHECK(Summary().text() == "0 samples, 0 lost, 0 with angles");
+  CHECK(at_20_hz().text() == "0 samples, 0 lost, 0 with angles");
 }
 
 TEST_CASE("One sample has no rate", "[session]") {
@@ -39,7 +44,7 @@ TEST_CASE("The rate is that of the samples' own times", "[session]") {
 }
 
 TEST_CASE("A rate that was not held is said to the millihertz", "[session]") {
-  Summary summary;
+  Summary summary = at_20_hz();
   for (std::uint64_t seq = 0; seq < 101; ++seq) {
     Sample sample = rest_sample(seq);
     sample.t_us = static_cast<std::int64_t>(seq) * 50'010;
@@ -47,6 +52,17 @@ TEST_CASE("A rate that was not held is said to the millihertz", "[session]") {
   }
   // 1e6 / 50010
   CHECK(summary.text() == "101 samples at 19.996 Hz, 0 lost, 0 with angles");
+}
+
+TEST_CASE("A rate more than a tenth off the nominal one is complained of", "[session]") {
+  CHECK_FALSE(counted({0}).rate_complaint());
+  for (const auto& [nominal_hz, complaint] : {std::pair{17.9, true}, {18.5, false}, {22.5, true}}) {
+    Summary summary(Acquisition<double>{.rate_hz = nominal_hz});
+    summary.count(rest_sample(0));
+    summary.count(rest_sample(1));
+    CAPTURE(nominal_hz);
+    CHECK(summary.rate_complaint().has_value() == complaint);
+  }
 }
 
 TEST_CASE("Lost samples are counted and do not lower the rate", "[session]") {
@@ -67,14 +83,14 @@ TEST_CASE("A stream that restarts loses no countable samples", "[session]") {
 }
 
 TEST_CASE("Estimates with angles are counted", "[session]") {
-  Summary summary;
+  Summary summary = at_20_hz();
   summary.count(Estimate<double>{.attitude = Estimate<double>::Attitude{}});
   summary.count(Estimate<double>{});
   CHECK(summary.text() == "0 samples, 0 lost, 1 with angles");
 }
 
 TEST_CASE("Flags are counted in the order of their bits", "[session]") {
-  Summary summary;
+  Summary summary = at_20_hz();
   summary.count(flagged(flag::kFilling));
   summary.count(flagged(flag::kFilling | flag::kSaturated));
   summary.count(flagged(flag::kNoSolution));
@@ -83,14 +99,14 @@ TEST_CASE("Flags are counted in the order of their bits", "[session]") {
 }
 
 TEST_CASE("A flag is fresh once", "[session]") {
-  Summary summary;
+  Summary summary = at_20_hz();
   CHECK(summary.count(flagged(flag::kMissing)) == flag::kMissing);
   CHECK(summary.count(flagged(flag::kMissing | flag::kDropout)) == flag::kDropout);
   CHECK(summary.count(flagged(flag::kMissing | flag::kDropout)) == 0);
 }
 
 TEST_CASE("A filter that fills and a board that starts are no problems", "[session]") {
-  Summary summary;
+  Summary summary = at_20_hz();
   summary.count(flagged(flag::kFilling | flag::kRestarted));
   CHECK_FALSE(summary.has_problems());
 }
@@ -98,7 +114,7 @@ TEST_CASE("A filter that fills and a board that starts are no problems", "[sessi
 TEST_CASE("Any other flag is a problem, for good", "[session]") {
   for (const FlagDescription& description : kFlagDescriptions) {
     if ((description.bit & flag::kOrdinary) == 0) {
-      Summary summary;
+      Summary summary = at_20_hz();
       summary.count(flagged(description.bit));
       summary.count(flagged(0));
       CAPTURE(std::string(description.name));
@@ -109,7 +125,7 @@ TEST_CASE("Any other flag is a problem, for good", "[session]") {
 
 TEST_CASE("A flag that nobody knows yet is a problem", "[session]") {
   // A newer board's, from bits 3 to 7 of a recording.
-  Summary summary;
+  Summary summary = at_20_hz();
   summary.count(flagged(1U << 7U));
   CHECK(summary.has_problems());
 }
