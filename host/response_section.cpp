@@ -6,22 +6,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace penduline {
 namespace {
 
-using Bounds = TomlSection::Bounds;
-
-constexpr double kAnyNumber = std::numeric_limits<double>::max();
-constexpr Bounds kFinite{-kAnyNumber, kAnyNumber, false, "a number"};
-constexpr Bounds kAboveZero{0, kAnyNumber, true, "a number above 0"};
-constexpr Bounds kNotNegative{0, kAnyNumber, false, "a number not below 0"};
-
 Response<double> read_linear(TomlSection& section) {
-  const LinearResponse<double> model{.gap_at_zero_m = section.number("gap_at_zero_m", kFinite),
-                                     .slope_m_per_v = section.number("slope_m_per_v", kFinite)};
+  const LinearResponse<double> model{.gap_at_zero_m = section.number("gap_at_zero_m", kAnyNumber),
+                                     .slope_m_per_v = section.number("slope_m_per_v", kAnyNumber)};
   if (model.slope_m_per_v == 0) {
     section.fail("slope_m_per_v", "found 0, expected a slope");
   }
@@ -31,7 +23,7 @@ Response<double> read_linear(TomlSection& section) {
 Response<double> read_inverse_square(TomlSection& section) {
   return {.model = InverseSquareResponse<double>{.a_v_m2 = section.number("a_v_m2", kAboveZero),
                                                  .b_m = section.number("b_m", kNotNegative),
-                                                 .c_v = section.number("c_v", kFinite)}};
+                                                 .c_v = section.number("c_v", kAnyNumber)}};
 }
 
 /// Whether the polynomial keeps rising or keeps falling over its range, by its values at many

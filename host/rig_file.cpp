@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "common/closed_form.hpp"
@@ -15,12 +15,6 @@
 
 namespace penduline {
 namespace {
-
-using Bounds = TomlSection::Bounds;
-
-constexpr double kAnyNumber = std::numeric_limits<double>::max();
-constexpr Bounds kAboveZero{0, kAnyNumber, true, "a number above 0"};
-constexpr Bounds kNotNegative{0, kAnyNumber, false, "a number not below 0"};
 
 void read_pendulum(const toml::table& table, Pendulum<double>& pendulum, TomlFindings& findings) {
   TomlSection section(table, "[pendulum]", findings);
@@ -39,8 +33,8 @@ void read_disc(const toml::table& table, Rig<double>& rig, TomlFindings& finding
 }
 
 void read_filter(const toml::table& table, Rig<double>& rig, TomlFindings& findings) {
-  constexpr Bounds kOrder{0, kMaxTaps - 1, false, "a whole number from 0 to 63"};
-  constexpr Bounds kCutoff{0, 1, true, "a number above 0, up to 1"};
+  constexpr NumberBounds kOrder{0, kMaxTaps - 1, false, "a whole number from 0 to 63"};
+  constexpr NumberBounds kCutoff{0, 1, true, "a number above 0, up to 1"};
   TomlSection section(table, "[filter]", findings);
   const double order = section.number("order", kOrder);
   if (order != std::floor(order)) {

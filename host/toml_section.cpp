@@ -12,7 +12,7 @@
 namespace penduline {
 namespace {
 
-bool within(double value, const TomlSection::Bounds& bounds) {
+bool within(double value, const NumberBounds& bounds) {
   return std::isfinite(value) && value <= bounds.most &&
          (bounds.open ? value > bounds.least : value >= bounds.least);
 }
@@ -42,7 +42,7 @@ void TomlSection::wrong(std::string_view key, std::string_view words) {
                             : fmt::format("missing, expected {}", words));
 }
 
-double TomlSection::number(std::string_view key, const Bounds& bounds) {
+double TomlSection::number(std::string_view key, const NumberBounds& bounds) {
   const toml::node* node = find(key);
   const auto value = node != nullptr ? node->value<double>() : std::nullopt;
   if (!value || !within(*value, bounds)) {
@@ -52,7 +52,7 @@ double TomlSection::number(std::string_view key, const Bounds& bounds) {
   return *value;
 }
 
-double TomlSection::number_or(std::string_view key, const Bounds& bounds, double otherwise) {
+double TomlSection::number_or(std::string_view key, const NumberBounds& bounds, double otherwise) {
   return find(key) == nullptr ? otherwise : number(key, bounds);
 }
 

@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,22 +25,27 @@ struct TomlFindings {
   void fail(const toml::node& node, std::string_view message);
 };
 
+/// Numbers allowed: from `least` to `most`, without `least` itself where `open` is set.
+struct NumberBounds {
+  double least;
+  double most;
+  bool open;
+  std::string_view words;  ///< "a number above 0"
+};
+
+inline constexpr double kLargestNumber = std::numeric_limits<double>::max();
+inline constexpr NumberBounds kAnyNumber{-kLargestNumber, kLargestNumber, false, "a number"};
+inline constexpr NumberBounds kAboveZero{0, kLargestNumber, true, "a number above 0"};
+inline constexpr NumberBounds kNotNegative{0, kLargestNumber, false, "a number not below 0"};
+
 /// One table of the file. Values of the wrong type or outside their bounds become the error.
 class TomlSection {
  public:
   TomlSection(const toml::table& table, std::string path, TomlFindings& findings)
       : table_(table), path_(std::move(path)), findings_(findings) {}
 
-  /// Numbers allowed: from `least` to `most`, without `least` itself where `open` is set.
-  struct Bounds {
-    double least;
-    double most;
-    bool open;
-    std::string_view words;  ///< "a length above 0"
-  };
-
-  double number(std::string_view key, const Bounds& bounds);
-  double number_or(std::string_view key, const Bounds& bounds, double otherwise);
+  double number(std::string_view key, const NumberBounds& bounds);
+  double number_or(std::string_view key, const NumberBounds& bounds, double otherwise);
   std::string text(std::string_view key, std::string_view words);
   std::string text_or(std::string_view key, std::string_view words, std::string otherwise);
   /// An array of `least` to `most` numbers.
