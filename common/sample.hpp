@@ -10,8 +10,12 @@
 
 namespace penduline {
 
+#ifndef PENDULINE_MAX_SENSORS
+#define PENDULINE_MAX_SENSORS 8  // a board's build says fewer, to save memory
+#endif
+
 /// The most sensors that one rig may have.
-inline constexpr std::size_t kMaxSensors = 8;
+inline constexpr std::size_t kMaxSensors = PENDULINE_MAX_SENSORS;
 
 /// Mean counts of one sensor over the sampling window.
 struct Reading {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/sample.hpp"
-#include "hal/concepts.hpp"
 #include "hal/replay/line_reader.hpp"
 #include "hal/replay/recording_format.hpp"
+#include "hal/sample_source.hpp"
 
 namespace penduline {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "common/sample.hpp"
-#include "hal/concepts.hpp"
 #include "hal/replay/line_reader.hpp"
+#include "hal/sample_source.hpp"
 
 namespace penduline {
 

@@ -8,7 +8,7 @@
 
 #include "common/rig.hpp"
 #include "common/sample.hpp"
-#include "hal/concepts.hpp"
+#include "hal/sample_source.hpp"
 #include "hal/sim/simulated_rig.hpp"
 
 namespace penduline {

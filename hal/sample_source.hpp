@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a backend must offer, as concepts; each backend asserts that it models them.
+// What the host reads samples from, as a concept; each backend asserts that it models it.
 #pragma once
 
 #include <concepts>
