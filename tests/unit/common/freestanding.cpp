@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of common for both scalars, compiled as firmware is: no exceptions, no RTTI, no hidden
 // double.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
 #include "common/bisection.hpp"
 #include "common/closed_form.hpp"
 #include "common/continuity.hpp"
@@ -18,6 +23,19 @@
 #include "common/sample.hpp"
 #include "common/window_flags.hpp"
 #include "common/window_moment.hpp"
+#include "common/wire/bytes.hpp"
+#include "common/wire/choices.hpp"
+#include "common/wire/cobs.hpp"
+#include "common/wire/commands.hpp"
+#include "common/wire/crc32.hpp"
+#include "common/wire/decoder.hpp"
+#include "common/wire/device_messages.hpp"
+#include "common/wire/field.hpp"
+#include "common/wire/frame.hpp"
+#include "common/wire/messages.hpp"
+#include "common/wire/rig_image.hpp"
+#include "common/wire/sample_message.hpp"
+#include "common/wire/text.hpp"
 
 namespace penduline {
 
@@ -84,5 +102,44 @@ template struct Rig<double>;
 
 template float signal_v(Reading, const Acquisition<float>&);
 template double signal_v(Reading, const Acquisition<double>&);
+
+namespace wire {
+
+template std::size_t encode_frame(const Hello&, std::span<std::uint8_t>);
+template std::optional<Hello> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const SampleMessage&, std::span<std::uint8_t>);
+template std::optional<SampleMessage> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Status&, std::span<std::uint8_t>);
+template std::optional<Status> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const AnglesMessage&, std::span<std::uint8_t>);
+template std::optional<AnglesMessage> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Pong&, std::span<std::uint8_t>);
+template std::optional<Pong> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Reply&, std::span<std::uint8_t>);
+template std::optional<Reply> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Ping&, std::span<std::uint8_t>);
+template std::optional<Ping> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const AskHello&, std::span<std::uint8_t>);
+template std::optional<AskHello> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const AskStatus&, std::span<std::uint8_t>);
+template std::optional<AskStatus> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const SetRate&, std::span<std::uint8_t>);
+template std::optional<SetRate> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const SetEmitter&, std::span<std::uint8_t>);
+template std::optional<SetEmitter> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Identify&, std::span<std::uint8_t>);
+template std::optional<Identify> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const Reboot&, std::span<std::uint8_t>);
+template std::optional<Reboot> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const BeginRig&, std::span<std::uint8_t>);
+template std::optional<BeginRig> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const RigPart&, std::span<std::uint8_t>);
+template std::optional<RigPart> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const EndRig&, std::span<std::uint8_t>);
+template std::optional<EndRig> read_message(std::span<const std::uint8_t>);
+template std::size_t encode_frame(const EraseRig&, std::span<std::uint8_t>);
+template std::optional<EraseRig> read_message(std::span<const std::uint8_t>);
+
+}  // namespace wire
 
 }  // namespace penduline
