@@ -2,6 +2,7 @@
 // Continuity of a stream of samples: what is lost, what restarted, what is out of order.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "common/flags.hpp"
@@ -29,8 +30,12 @@ class Continuity {
         verdict.unbroken = false;
       } else if (sample.seq <= last_seq_ || sample.t_us <= last_t_us_) {
         verdict = {.flags = flag::kOutOfOrder, .unbroken = false};
+        seq_before_stray_ = last_seq_;
       } else if (sample.seq != last_seq_ + 1) {
-        verdict = {.flags = flag::kDropout, .lost = sample.seq - last_seq_ - 1, .unbroken = false};
+        // After a stray number the stream may go on where it was before it.
+        const std::uint64_t from =
+            sample.seq > seq_before_stray_ ? std::max(last_seq_, seq_before_stray_) : last_seq_;
+        verdict = {.flags = flag::kDropout, .lost = sample.seq - from - 1, .unbroken = false};
       } else if (sample.t_us - last_t_us_ > longest_step_us_) {
         verdict = {.flags = flag::kDropout, .unbroken = false};
       }
@@ -45,6 +50,7 @@ class Continuity {
   std::int64_t longest_step_us_;
   bool started_ = false;
   std::uint64_t last_seq_ = 0;
+  std::uint64_t seq_before_stray_ = 0;
   std::int64_t last_t_us_ = 0;
 };
 

@@ -50,7 +50,11 @@ template <class Scalar>
   const Scalar cos2 = std::cos(state.theta2_rad);
   const Scalar speed1 = pendulum.length_m * cos2 * state.omega1_rad_s;
   const Scalar speed2 = pendulum.length_m * state.omega2_rad_s;
-  const Scalar height = pendulum.length_m * (1 - std::cos(state.theta1_rad) * cos2);
+  // 1 - cos(theta1) cos(theta2), by half angles so that small tilts keep their digits.
+  const Scalar half1 = std::sin(state.theta1_rad / 2);
+  const Scalar half2 = std::sin(state.theta2_rad / 2);
+  const Scalar height =
+      2 * pendulum.length_m * (half1 * half1 + std::cos(state.theta1_rad) * half2 * half2);
   return pendulum.mass_kg *
          ((speed1 * speed1 + speed2 * speed2) / 2 + pendulum.gravity_m_s2 * height);
 }

@@ -110,7 +110,8 @@ struct Response {
   [[nodiscard]] GapReading<Scalar> read(Scalar volts) const {
     GapReading<Scalar> reading{
         .gap_m = std::visit([&](const auto& curve) { return curve.gap_m(volts); }, model)};
-    if (!reading.gap_m || *reading.gap_m < nearest_m || *reading.gap_m > farthest_m) {
+    if (!reading.gap_m || *reading.gap_m < nearest_m || *reading.gap_m > farthest_m ||
+        is_beyond_model(volts)) {
       reading.flags |= flag::kOutOfRange;
     }
     if (reading.gap_m && peak_m > 0 && *reading.gap_m < kPeakMargin * peak_m) {
@@ -122,6 +123,15 @@ struct Response {
   /// The signal for a gap within the range, in volts.
   [[nodiscard]] Scalar volts(Scalar gap_m) const {
     return std::visit([&](const auto& curve) { return curve.volts(gap_m); }, model);
+  }
+
+ private:
+  /// Whether the model itself holds for a range of volts only: a polynomial may turn round past its
+  /// range and come back to gaps that look good.
+  [[nodiscard]] bool is_beyond_model(Scalar volts) const {
+    const auto* polynomial = std::get_if<PolynomialResponse<Scalar>>(&model);
+    return polynomial != nullptr &&
+           (volts < polynomial->volts_min || volts > polynomial->volts_max);
   }
 };
 

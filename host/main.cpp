@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `penduline`.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/log.hpp"
@@ -28,6 +33,16 @@ int run_program(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+    const bool unknown_command = argc > 1 && argv[1][0] != '-' && program.get_subcommands().empty();
+    if (unknown_command) {
+      std::vector<std::string> names;
+      for (const CLI::App* command : program.get_subcommands([](CLI::App*) { return true; })) {
+        names.push_back(command->get_name());
+      }
+      log_failure(
+          {fmt::format("found command '{}', expected {}", argv[1], fmt::join(names, ", "))});
+      return static_cast<int>(ExitStatus::kUsage);
+    }
     program.exit(error);
     return static_cast<int>(asked_for ? ExitStatus::kDone : ExitStatus::kUsage);
   }

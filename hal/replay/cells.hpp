@@ -51,7 +51,10 @@ namespace penduline {
 /// The number in a cell, blanks around it allowed; none where the cell is not one number.
 template <class Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view cell) {
-  const std::string_view text = trimmed(cell);
+  std::string_view text = trimmed(cell);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
+    text.remove_prefix(1);  // which `from_chars` does not know
+  }
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size()) {

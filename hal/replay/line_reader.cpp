@@ -110,6 +110,10 @@ tl::expected<LineReader::Outcome, Error> LineReader::next() {
   const std::size_t used = line_.size() + (newline != nullptr ? 1 : 0);
   begin_ += used;
   consumed_bytes_ += used;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) {
+    line_.remove_prefix(kByteOrderMark.size());
+  }
   if (line_.ends_with('\r')) {
     line_.remove_suffix(1);
   }

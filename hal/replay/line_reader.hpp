@@ -38,7 +38,8 @@ class LineReader {
   /// where reading itself fails. A signal that interrupts a wait for input ends the file.
   tl::expected<Outcome, Error> next();
 
-  /// The current line without its end (LF or CRLF); valid until the next call of `next`.
+  /// The current line without its end (LF or CRLF) and the file's byte order mark; valid until the
+  /// next call of `next`.
   [[nodiscard]] std::string_view line() const { return line_; }
   /// The current line's number, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -16,9 +17,10 @@ constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
 
 /// A header value as TOML; empty where the header does not know it.
 std::string header_value(const RecordingHeader& header, std::string_view key) {
-  // A string of JSON is one of TOML, too, and always on one line.
-  const auto quoted = [](const std::string& text) {
-    return text.empty() ? "" : nlohmann::json(text).dump(-1, ' ', true, kReplaceBadBytes);
+  // A string of JSON is one of TOML, too, and always on one line; but for the character DEL.
+  const auto quoted = [](std::string text) {
+    std::ranges::replace(text, '\x7f', '?');
+    return text.empty() ? "" : nlohmann::json(text).dump(-1, ' ', false, kReplaceBadBytes);
   };
   const auto number = [](double value) { return toml_text(toml::value<double>(value)); };
   if (key == kVersionKey) {

@@ -187,8 +187,8 @@ tl::expected<void, Error> RecordingReader::parse_header(const std::string& heade
   }
   const auto full_scale_counts =
       within("full_scale_counts", 1, std::numeric_limits<std::int32_t>::max());
-  if (!full_scale_counts) {
-    return wrong("full_scale_counts", "the counts at full scale, such as 65535");
+  if (!full_scale_counts || *full_scale_counts != std::floor(*full_scale_counts)) {
+    return wrong("full_scale_counts", "the counts at full scale, a whole number such as 65535");
   }
   const auto reference_v = within("reference_v", kLeastReferenceV, kMostReferenceV);
   if (!reference_v) {

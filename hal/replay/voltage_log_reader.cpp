@@ -128,8 +128,10 @@ tl::expected<std::optional<VoltageLogReader::Row>, Error> VoltageLogReader::next
       return std::nullopt;
     }
     const std::string_view line = lines_.line();
-    const bool names = lines_.line_number() == 1 && is_line_of_names(line);
-    if (trimmed(line).empty() || line.starts_with('#') || names) {
+    if (trimmed(line).empty() || line.starts_with('#')) {
+      continue;
+    }
+    if (std::exchange(first_line_, false) && is_line_of_names(line)) {
       continue;
     }
     auto row = parse_row(line);

@@ -82,6 +82,7 @@ class VoltageLogReader {
   };
   std::optional<Place> last_;
   std::vector<std::string> complaints_;
+  bool first_line_ = true;  ///< the next line that is no comment is the first
 };
 
 static_assert(SampleSource<VoltageLogReader>);

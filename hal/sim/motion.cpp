@@ -7,6 +7,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace penduline {
 namespace {
@@ -70,14 +71,20 @@ class ExactMotion final : public Motion {
     integrate_adaptive(
         make_controlled<runge_kutta_dopri5<Vector>>(kTolerance, kTolerance),
         [this](const Vector& state, Vector& change, double) {
-          const SwingState<double> rate = swing_derivative(unpacked(state), pendulum_);
+          const SwingState<double> now = unpacked(state);
+          near_pole_ = near_pole_ || std::abs(std::cos(now.theta2_rad)) < kNearPole;
+          const SwingState<double> rate =
+              near_pole_ ? SwingState<double>{} : swing_derivative(now, pendulum_);
           change = {rate.theta1_rad, rate.theta2_rad, rate.omega1_rad_s, rate.omega2_rad_s};
         },
         vector_, t_s_, t_s, std::min(kFirstStep, t_s - t_s_));
     t_s_ = t_s;
   }
 
-  [[nodiscard]] SwingState<double> state() const override { return unpacked(vector_); }
+  [[nodiscard]] SwingState<double> state() const override {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    return near_pole_ ? SwingState<double>{kNone, kNone, kNone, kNone} : unpacked(vector_);
+  }
 
  private:
   using Vector = std::array<double, 4>;
@@ -89,9 +96,13 @@ class ExactMotion final : public Motion {
             .omega2_rad_s = vector[3]};
   }
 
+  /// Where the rod lies along X, theta1 has no value, and what comes after it is wrong.
+  static constexpr double kNearPole = 0.02;
+
   Pendulum<double> pendulum_;
   Vector vector_{};
   double t_s_ = 0;
+  bool near_pole_ = false;
 };
 
 }  // namespace

@@ -37,7 +37,8 @@ class Motion {
 
   /// Goes on to a time not before the one reached.
   virtual void advance_to(double t_s) = 0;
-  /// The state at the time reached. Not finite once an Euler scheme has run away.
+  /// The state at the time reached. Not finite once an Euler scheme has run away, or the exact
+  /// integrator has come to the X axis, where theta1 has no value.
   [[nodiscard]] virtual SwingState<double> state() const = 0;
 };
 

@@ -59,7 +59,10 @@ tl::expected<bool, Error> SampledRig::read(Sample& sample) {
   rig_.advance_to(t_s);
   if (!is_physical(rig_.truth())) {
     return failure(
-        fmt::format("sim: the integrator has run away at t = {:.3f} s: no angles any more", t_s));
+        fmt::format("sim: no angles any more at t = {:.3f} s: {}", t_s,
+                    settings_.integrator == Integrator::kDopri5
+                        ? "the rod has come to lie along the X axis, where theta1 has no value"
+                        : "the integrator has run away"));
   }
   for (std::size_t i = 0; i < acquisition_.sensor_count; ++i) {
     const Conversion lit = convert(i, true);

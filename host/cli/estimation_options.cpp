@@ -45,6 +45,9 @@ tl::expected<TextFile, Error> start_recording(const std::string& path,
   auto file = TextFile::create(path);
   if (file) {
     file->text() += recording_head(header);
+    if (const auto flushed = file->flush(); !flushed) {
+      return tl::unexpected(flushed.error());
+    }
   }
   return file;
 }

@@ -28,7 +28,7 @@ tl::expected<std::unique_ptr<Source>, Error> open_replay(const ReplayOptions& op
   }
   auto layout = parse_log_layout(*options.import_columns);
   if (!layout) {
-    return failure("--import: " + layout.error().message);
+    throw CLI::ValidationError("--import", layout.error().message);
   }
   layout->rate_hz = options.rate_hz;
   return open_voltage_log(options.path, *layout);

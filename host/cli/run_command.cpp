@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penduline run`: samples as they come, estimates at once.
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 
@@ -53,6 +55,10 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "  penduline run sim: --rig rig.toml --case conical\n"
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv");
   command->final_callback([options, command, &status] {
+    if (options->uri != kSimulation && path_of(options->uri).empty()) {
+      throw CLI::ValidationError(
+          "SOURCE", fmt::format("found '{}', expected sim: or file:PATH", options->uri));
+    }
     if (options->uri != kSimulation) {
       refuse_simulation_options(*command, "is for the source sim: only");
     }

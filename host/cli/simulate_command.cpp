@@ -116,6 +116,7 @@ tl::expected<std::uint64_t, Error> simulate(const SimulateOptions& options) {
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return tl::unexpected(distinct.error());
   }
+  SampledRig rig(rig_file->rig, simulation_settings(options.simulation, rig_file->rig));
   auto recording = TextFile::create(options.output_path);
   if (!recording) {
     return tl::unexpected(recording.error());
@@ -128,7 +129,6 @@ tl::expected<std::uint64_t, Error> simulate(const SimulateOptions& options) {
     }
     truth.emplace(std::move(*created));
   }
-  SampledRig rig(rig_file->rig, simulation_settings(options.simulation, rig_file->rig));
   auto count = write_simulation(rig, *recording, truth, options.output_path == "-");
   for (const std::string& complaint : simulation_complaints(rig)) {
     log_warning(complaint);

@@ -19,6 +19,7 @@ constexpr double kCaseTwoPsi = 2;         // rad/s, sec. 3.2
 constexpr double kCaseTwoSeconds = 50;    // 1000 iterations of 0.05 s
 constexpr double kOtherCaseSeconds = 10;  // 200 iterations
 constexpr double kFastestTurn = 1000;     // rad/s
+constexpr double kLargestSeed = 1e15;     // whole numbers up to it are exact
 constexpr std::string_view kSwingGroup = "Simulated swing";
 constexpr std::string_view kSensorsGroup = "Simulated sensors";
 
@@ -113,6 +114,7 @@ void add_disturbance_options(CLI::App& command, SimulationOptions& options) {
       ->excludes(ambient, noise, bits, conversions)
       ->group(group);
   command.add_option("--seed", settings.seed, "Of the noise: one seed, one result")
+      ->check(number_within(0, kLargestSeed))
       ->capture_default_str()
       ->group(group);
 }

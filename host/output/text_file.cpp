@@ -20,6 +20,13 @@ constexpr std::size_t kLargeBytes = std::size_t{64} * 1024;
 constexpr int kClosed = -1;
 constexpr int kReadableByAll = 0644;
 
+/// A path without links and dots, also of a file that is yet to be created.
+std::filesystem::path resolved(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto target = std::filesystem::read_symlink(path, failed);
+  return std::filesystem::weakly_canonical(failed ? path : path.parent_path() / target, failed);
+}
+
 }  // namespace
 
 tl::expected<TextFile, Error> TextFile::create(const std::string& path) {
@@ -73,7 +80,7 @@ tl::expected<void, Error> require_distinct_files(std::span<const std::string> pa
     if (std::filesystem::exists(one, failed) && !std::filesystem::is_regular_file(one, failed)) {
       return false;
     }
-    return one == other || std::filesystem::equivalent(one, other, failed);
+    return resolved(one) == resolved(other) || std::filesystem::equivalent(one, other, failed);
   };
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

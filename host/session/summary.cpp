@@ -12,9 +12,11 @@ namespace penduline {
 void Summary::count(const Sample& sample) {
   const Continuity::Verdict verdict = continuity_.follow(sample);
   lost_ += verdict.lost;
-  if (samples_ > 0 && verdict.unbroken) {
-    unbroken_us_ += sample.t_us - last_t_us_;
-    ++unbroken_steps_;
+  const bool paused = verdict.flags == flag::kDropout && verdict.lost == 0;
+  if (samples_ > 0 && (verdict.unbroken || paused)) {
+    Steps& steps = paused ? paused_ : unbroken_;
+    steps.us += sample.t_us - last_t_us_;
+    ++steps.count;
   }
   last_t_us_ = sample.t_us;
   ++samples_;
@@ -33,10 +35,11 @@ Flags Summary::count(const Estimate<double>& estimate) {
 }
 
 std::optional<double> Summary::rate_hz() const {
-  if (unbroken_us_ == 0) {
+  const Steps& most = paused_.count > unbroken_.count ? paused_ : unbroken_;
+  if (most.count == 0) {
     return std::nullopt;
   }
-  return 1e6 * static_cast<double>(unbroken_steps_) / static_cast<double>(unbroken_us_);
+  return 1e6 * static_cast<double>(most.count) / static_cast<double>(most.us);
 }
 
 std::optional<std::string> Summary::rate_complaint() const {

@@ -32,11 +32,12 @@ class Summary {
   /// Whether any flag but the ordinary ones was seen.
   [[nodiscard]] bool has_problems() const { return (seen_ & ~flag::kOrdinary) != 0; }
 
-  /// In words, for a person: "463 samples in 23.100 s (20.000 Hz), 448 with angles; ...".
+  /// In words, for a person: "463 samples at 20.000 Hz, 0 lost, 448 with angles; flagged: ...".
   [[nodiscard]] std::string text() const;
 
  private:
-  /// Mean rate over the unbroken stretches; none before two samples in a row.
+  /// Mean rate over the steps from one number to the next: those without pauses or, where most
+  /// steps are too long for the nominal rate, those. None before two samples in a row.
   [[nodiscard]] std::optional<double> rate_hz() const;
 
   double nominal_hz_;
@@ -47,8 +48,13 @@ class Summary {
   Flags seen_ = 0;
   Continuity continuity_;
   std::int64_t last_t_us_ = 0;
-  std::int64_t unbroken_us_ = 0;
-  std::uint64_t unbroken_steps_ = 0;
+  /// Steps from one number to the next, and their time.
+  struct Steps {
+    std::uint64_t count = 0;
+    std::int64_t us = 0;
+  };
+  Steps unbroken_;
+  Steps paused_;
 };
 
 }  // namespace penduline

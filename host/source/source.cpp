@@ -111,10 +111,7 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(std::string_view uri,
   if (uri == kSimulation) {
     return std::make_unique<SimulatedSource>(rig, settings);
   }
-  if (const std::string path = path_of(uri); !path.empty()) {
-    return open_recording(path);
-  }
-  return failure(fmt::format("found source '{}', expected sim: or file:PATH", uri));
+  return open_recording(path_of(uri));
 }
 
 }  // namespace penduline

@@ -45,8 +45,7 @@ class Source {
 /// The URI of a simulated rig.
 inline constexpr std::string_view kSimulation = "sim:";
 
-/// Opens `file:PATH` or `sim:`; the simulation runs `rig` with `settings`. The error says what URIs
-/// there are.
+/// Opens `file:PATH` or `sim:`; the simulation runs `rig` with `settings`.
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_source(
     std::string_view uri, const Rig<double>& rig, const SimulationSettings& settings);
 

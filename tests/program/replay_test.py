@@ -162,6 +162,13 @@ class ReplayTest(ProgramTest):
             with self.subTest(arguments):
                 run(*arguments, status=2)
 
+    def test_a_command_that_is_none_is_named(self):
+        self.assertEqual(run("fly", status=2).stderr,
+                         "error: found command 'fly', expected replay, run, simulate\n")
+
+    def test_a_recording_may_begin_with_a_byte_order_mark(self):
+        self.replay("\ufeff" + recording(range(20)), "--strict")
+
     def test_help_teaches_and_ends_with_0(self):
         self.assertIn("penduline replay rec.csv --rig rig.toml", run("replay", "--help").stdout)
         self.assertRegex(run("--version").stdout, r"^penduline \d+\.\d+\.\d+\n$")
@@ -176,8 +183,8 @@ class ReplayTest(ProgramTest):
             self.assertAlmostEqual(float(ours or 0), float(theirs or 0), places=5)
 
     def test_an_import_without_columns_is_refused(self):
-        done = self.replay("1,2\n", "--import", "", status=1)
-        self.assertIn("error: --import: found column ''", done.stderr)
+        done = self.replay("1,2\n", "--import", "", status=2)
+        self.assertIn("--import: found column ''", done.stderr)
 
     def test_a_log_whose_last_line_does_not_end_is_doubtful(self):
         done = self.replay("1,2\n" * 20 + "1,2", "--import", "x,y", "--rate", 20, "--strict",

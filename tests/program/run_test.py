@@ -69,8 +69,15 @@ class RunTest(ProgramTest):
         self.assertIn("info: 10 samples", done.stderr)
 
     def test_an_unknown_source_says_which_there_are(self):
-        done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=1)
-        self.assertEqual(done.stderr, "error: found source 'magic:', expected sim: or file:PATH\n")
+        done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=2)
+        self.assertIn("SOURCE: found 'magic:', expected sim: or file:PATH\n", done.stderr)
+
+    def test_a_recording_without_samples_is_a_recording(self):
+        recording = self.folder / "rec.csv"
+        rig = RIGS / "paper.toml"
+        run("run", "sim:", "--rig", rig, "--seconds", 0, "--fast", "--record", recording)
+        done = run("replay", recording, "--rig", rig, "--strict", status=3)
+        self.assertIn("found no sample, expected at least one", done.stderr)
 
 
 if __name__ == "__main__":

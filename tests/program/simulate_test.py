@@ -41,7 +41,8 @@ class SimulateTest(ProgramTest):
     def test_euler_in_case_2_ends_where_no_angles_are_left(self):
         done = run("simulate", "--case", 2, "--integrator", "euler", "--rig", RIGS / "paper.toml",
                    status=1)
-        self.assertIn("error: sim: the integrator has run away at t = 0.500 s", done.stderr)
+        self.assertIn("error: sim: no angles any more at t = 0.500 s: the integrator has "
+                      "run away", done.stderr)
         self.assertIn("warning: sim: the integrator has blown up", done.stderr)
         self.assertTrue(done.stdout.endswith("\n"))
 
@@ -58,6 +59,17 @@ class SimulateTest(ProgramTest):
                       ["--integrator", "euler", "--theta-deg", 0]):
             done = run("simulate", "--rig", RIGS / "paper.toml", *start, status=2)
             self.assertIn("--theta-deg: ", done.stderr)
+
+    def test_wrong_usage_leaves_an_old_output_as_it_is(self):
+        old = self.write("old.csv", "precious")
+        run("simulate", "--rig", RIGS / "paper.toml", "--case", "conical", "--theta-deg", 95, "-o", old,
+            status=2)
+        self.assertEqual(old.read_text(), "precious")
+
+    def test_two_outputs_in_one_new_file_are_refused(self):
+        done = run("simulate", "--rig", RIGS / "paper.toml", "-o", self.folder / "new.csv", "--truth",
+                   f"{self.folder}/./new.csv", status=1)
+        self.assertIn("stands for two files of this run", done.stderr)
 
     def test_angles_come_back_from_tcrt5000_sensors_with_noise_and_ambient_light(self):
         swing = ("--theta-deg", 10, "--psi", 3)

@@ -104,6 +104,14 @@ TEST_CASE("After a sample out of order the stream follows on from that sample", 
   check_unbroken(continuity.follow(at(4, 200'000)));
 }
 
+TEST_CASE("A stream that goes on past a stray number has lost only that one", "[continuity]") {
+  Continuity continuity = at_eleven();
+  continuity.follow(at(3, 600'000));
+  const auto verdict = continuity.follow(at(13, 650'000));
+  CHECK(verdict.flags == flag::kDropout);
+  CHECK(verdict.lost == 1);
+}
+
 TEST_CASE("A restart breaks the stream without being out of order", "[continuity]") {
   const auto verdict = at_eleven().follow(at(0, 50'000, flag::kRestarted));
   CHECK_FALSE(verdict.unbroken);

@@ -107,6 +107,20 @@ TEMPLATE_TEST_CASE("A rising polynomial of eight coefficients works both ways", 
              Catch::WithinAbs(0.4476897599574347, kVoltsTolerance<TestType>));
 }
 
+TEMPLATE_TEST_CASE("Past its range a polynomial may come back to good gaps, and is flagged",
+                   "[response]", float, double) {
+  // 50 - 30 V + 7.5 V^2 in mm turns round at 2 V: 2.7 V reads as 1.3 V does.
+  const Response<TestType> sensor{
+      .model =
+          PolynomialResponse<TestType>{
+              {TestType(0.05), TestType(-0.03), TestType(0.0075)}, 3, 0, TestType(1.9)},
+      .nearest_m = TestType(0.020075),
+      .farthest_m = TestType(0.05)};
+  CHECK(sensor.read(TestType(1.3)).flags == 0);
+  CHECK(sensor.read(TestType(2.7)).flags == flag::kOutOfRange);
+  CHECK(sensor.read(TestType(-0.1)).flags == flag::kOutOfRange);
+}
+
 TEMPLATE_TEST_CASE("A gap that a polynomial does not reach gives the nearer end of its volts",
                    "[response]", float, double) {
   const auto sensor = falling_polynomial_sensor<TestType>();

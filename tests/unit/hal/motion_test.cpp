@@ -181,7 +181,26 @@ TEST_CASE("Euler runs away in case 2, and the error says when", "[sim]") {
   // The Python loop: omega = -1.3e7 rad/s at 0.5 s.
   REQUIRE_FALSE(more);
   CHECK(more.error().message ==
-        "sim: the integrator has run away at t = 0.500 s: no angles any more");
+        "sim: no angles any more at t = 0.500 s: the integrator has run away");
+}
+
+TEST_CASE("A swing through the X axis ends there, for theta1 has no value", "[sim]") {
+  // From 120 degrees in the XZ plane the rod passes the horizontal.
+  SimulationSettings settings = ideal({.theta_rad = 2.094, .phi_rad = 0});
+  SampledRig rig(paper_rig(), settings);
+  Sample sample;
+  tl::expected<bool, Error> more = true;
+  while (more && *more) {
+    more = rig.read(sample);
+  }
+  REQUIRE_FALSE(more);
+  CHECK(
+      more.error().message.ends_with("the rod has come to lie along the X axis, where theta1 has "
+                                     "no value"));
+}
+
+TEST_CASE("A release from a ten-millionth of a degree keeps its energy", "[sim]") {
+  CHECK(std::isinf(blown_up_at_s(Integrator::kDopri5, {.theta_rad = 1.7e-9, .phi_rad = 0.8}, 10)));
 }
 
 }  // namespace

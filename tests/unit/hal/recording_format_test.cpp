@@ -152,9 +152,10 @@ TEST_CASE("The acquisition comes back from a recording to the last bit", "[recor
 }
 
 TEST_CASE("Whatever a board calls itself comes back from a recording", "[recording]") {
-  const std::string name = GENERATE(
-      as<std::string>{}, "pico", "with \"quotes\"", "it's", "back\\slash", "two\nlines", "a\r\nb",
-      "tab\there", "# sharp", "\x1b[31mred", "M\xc3\xbcnchen", "'''", "\"\"\"", "a\n'''b\\\"\"\"");
+  const std::string name =
+      GENERATE(as<std::string>{}, "pico", "with \"quotes\"", "it's", "back\\slash", "two\nlines",
+               "a\r\nb", "tab\there", "# sharp", "\x1b[31mred", "M\xc3\xbcnchen",
+               "pico\xf0\x9f\x98\x80", "'''", "\"\"\"", "a\n'''b\\\"\"\"");
   RecordingHeader header = design_header();
   header.board = header.firmware = name;
   const ReadOut out = read_text(recording_head(header));

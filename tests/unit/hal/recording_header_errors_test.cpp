@@ -78,7 +78,7 @@ TEST_CASE("Each required key is missed", "[recording]") {
         "rec.csv: header key 'rate_hz': missing, expected a rate from 0.001 to 1000000");
   CHECK(read_text(header_with(3, "")).error ==
         "rec.csv: header key 'full_scale_counts': missing, expected the counts at full scale, "
-        "such as 65535");
+        "a whole number such as 65535");
   CHECK(read_text(header_with(4, "")).error ==
         "rec.csv: header key 'reference_v': missing, expected a voltage from 1e-06 to 1000000");
 }
@@ -126,10 +126,10 @@ TEST_CASE("A header's number is shown as the file has it", "[recording]") {
 }
 
 TEST_CASE("Full-scale counts are whole and fit 32 bits", "[recording]") {
-  const std::string counts = GENERATE("2147483648", "0", "0.5", "-65535");
+  const std::string counts = GENERATE("2147483648", "0", "0.5", "65535.5", "-65535");
   CHECK(read_text(header_with(3, "# full_scale_counts = " + counts + "\n")).error ==
         "rec.csv:3: header key 'full_scale_counts': found " + counts +
-            ", expected the counts at full scale, such as 65535");
+            ", expected the counts at full scale, a whole number such as 65535");
 }
 
 TEST_CASE("A reference of no volts is refused", "[recording]") {

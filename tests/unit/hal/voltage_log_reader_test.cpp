@@ -132,6 +132,15 @@ TEST_CASE("Volts are rounded to 10 nV", "[import]") {
   CHECK(read_log("1.234567894,1.234567896\n", "x,y", 20).rows == Lines{"0 0 123456789 123456790"});
 }
 
+TEST_CASE("A line of names may follow comments", "[import]") {
+  CHECK(read_log("# from the DAQ\nleft,right\n1,2\n", "x,y", 20).rows ==
+        Lines{"0 0 100000000 200000000"});
+}
+
+TEST_CASE("A plus sign is part of a number", "[import]") {
+  CHECK(read_log("+1,+2.5e-1\n", "x,y", 20).rows == Lines{"0 0 100000000 25000000"});
+}
+
 TEST_CASE("Volts may be negative or in exponent form", "[import]") {
   CHECK(read_log("-0.25,-1.5e-3\n", "x,y", 20).rows == Lines{"0 0 -25000000 -150000"});
 }

@@ -124,6 +124,16 @@ TEST_CASE("Samples that come at another rate than the header's are told", "[sess
   CHECK(done.doubtful);
 }
 
+TEST_CASE("Samples much slower than the header says are told by their own rate", "[session]") {
+  std::vector<Sample> samples = rest_samples(5);
+  for (Sample& sample : samples) {
+    sample.t_us *= 4;
+  }
+  const Run done = run(samples);
+  REQUIRE(done.warnings.size() == 2);
+  CHECK(done.warnings[1] == "the samples come at 5.000 Hz, expected their nominal 20.000 Hz");
+}
+
 TEST_CASE("A time that goes back is out of order although seq goes on", "[session]") {
   std::vector<Sample> samples = rest_samples(3);
   samples[2].t_us = 49'999;
