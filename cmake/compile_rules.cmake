@@ -5,10 +5,11 @@
 add_compile_options(-ffp-contract=off)
 
 add_library(penduline_warnings INTERFACE)
-target_compile_options(penduline_warnings INTERFACE
+set(warnings
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wsuggest-override
   -Wzero-as-null-pointer-constant -Wredundant-decls)
+target_compile_options(penduline_warnings INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${warnings}>")
 
 if(PENDULINE_TIDY)
   find_program(CLANG_TIDY NAMES clang-tidy-14 clang-tidy REQUIRED)

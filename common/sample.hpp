@@ -44,13 +44,13 @@ struct Acquisition {
   Scalar reference_v = Scalar(3.3);
   std::size_t sensor_count = 2;
 
-  /// The nominal period, rounded.
+  /// The nominal period, rounded; of a rate of 1 mHz or more it fits 32 bits.
   [[nodiscard]] constexpr std::int64_t period_us() const {
-    return static_cast<std::int64_t>(Scalar(1e6) / rate_hz + Scalar(0.5));
+    return static_cast<std::int32_t>(Scalar(1e6) / rate_hz + Scalar(0.5));
   }
   /// What two samples in a row may be apart: one and a half periods.
   [[nodiscard]] constexpr std::int64_t longest_step_us() const {
-    return static_cast<std::int64_t>(Scalar(1.5e6) / rate_hz) + 1;
+    return static_cast<std::int32_t>(Scalar(1.5e6) / rate_hz) + 1;
   }
 };
 
@@ -58,9 +58,14 @@ struct Acquisition {
 /// nothing reflects and the noise says so.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar signal_v(Reading reading, const Acquisition<Scalar>& acquisition) {
-  const std::int64_t difference = std::int64_t{reading.on} - reading.off;
-  return static_cast<Scalar>(difference) *
-         (acquisition.reference_v / acquisition.full_scale_counts);
+  // Counts fit 16 bits; the difference of what fills 32 is taken after the conversion. A conversion
+  // of 64 bits would bring double arithmetic to the board.
+  const std::int64_t wide = std::int64_t{reading.on} - reading.off;
+  const auto narrow = static_cast<std::int32_t>(wide);
+  const Scalar difference =
+      narrow == wide ? static_cast<Scalar>(narrow)
+                     : static_cast<Scalar>(reading.on) - static_cast<Scalar>(reading.off);
+  return difference * (acquisition.reference_v / acquisition.full_scale_counts);
 }
 
 }  // namespace penduline

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// One link with what waits to go out on it and what comes in.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "common/wire/decoder.hpp"
+#include "common/wire/frame.hpp"
+#include "firmware/frame_ring.hpp"
+#include "hal/concepts.hpp"
+
+namespace penduline {
+
+template <ByteLink Link>
+class Port {
+ public:
+  explicit Port(Link& link) : link_(link) {}
+
+  template <wire::Message Message>
+  void send(const Message& message) {
+    std::array<std::uint8_t, wire::kFrameBytes<Message>> frame{};
+    waiting_.push({frame.data(), wire::encode_frame(message, frame)});
+  }
+
+  /// Hands the link what it has room for. A frame that has begun to go out is not dropped any more.
+  void pump() {
+    while (true) {
+      if (sent_ == size_) {
+        sent_ = 0;
+        size_ = waiting_.pop(going_);
+        if (size_ == 0) {
+          return;
+        }
+      }
+      const std::size_t taken = link_.write({going_.data() + sent_, size_ - sent_});
+      sent_ += taken;
+      if (taken == 0) {
+        return;
+      }
+    }
+  }
+
+  /// Calls `on_frame(const wire::Frame&)` for each frame that has come; a few hundred bytes at
+  /// most, so that a flood does not keep the main loop.
+  template <class OnFrame>
+  void receive(const OnFrame& on_frame) {
+    constexpr int kPieces = 8;
+    std::array<std::uint8_t, 32> piece{};
+    for (int i = 0; i < kPieces; ++i) {
+      const std::size_t size = link_.read(piece);
+      if (size == 0) {
+        return;
+      }
+      decoder_.push(std::span<const std::uint8_t>(piece).first(size), on_frame);
+    }
+  }
+
+  [[nodiscard]] const Link& link() const { return link_; }
+  [[nodiscard]] Link& link() { return link_; }
+  [[nodiscard]] std::uint32_t dropped_frames() const { return waiting_.dropped(); }
+  [[nodiscard]] std::uint32_t bad_frames() const { return decoder_.bad_frames(); }
+
+ private:
+  static constexpr std::size_t kWaitingBytes = 2048;
+
+  Link& link_;
+  FrameRing<kWaitingBytes> waiting_;
+  std::array<std::uint8_t, wire::kMaxFrameBytes> going_{};
+  std::size_t size_ = 0;
+  std::size_t sent_ = 0;
+  wire::Decoder decoder_;
+};
+
+}  // namespace penduline

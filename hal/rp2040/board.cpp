@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Pico put together: start-up, sleep, interrupts.
+#include "hal/rp2040/board.hpp"
+
+#include "common/wire/device_messages.hpp"
+#include "hal/program.hpp"
+#include "hal/rp2040/clocks.hpp"
+#include "hal/rp2040/interrupts.hpp"
+#include "hal/rp2040/stack.hpp"
+
+namespace penduline::rp2040 {
+namespace {
+
+Board board;
+[[gnu::section(".kept")]] CrashRecord kept_crash_record;
+
+}  // namespace
+
+Board& pico() {
+  return board;
+}
+
+void Board::start() {
+  id_.start();  // before anything may interrupt it
+  PENDULINE_REQUIRE(restart_peripheral(resets::kIoBank0));
+  PENDULINE_REQUIRE(restart_peripheral(resets::kPadsBank0));
+  PENDULINE_REQUIRE(start_clocks());
+  PENDULINE_REQUIRE(Timer::start());
+  PENDULINE_REQUIRE(adc_.start());
+  Emitters::start();
+  LightPin<kLightPin>::start();
+  PENDULINE_REQUIRE(uart_.start());
+  PENDULINE_REQUIRE(usb_.start(id_.unique_id()));
+  for (const Interrupt sampling : {Interrupt::kTimer0, Interrupt::kTimer1, Interrupt::kDma0}) {
+    start_interrupt(sampling, Priority::kSampling);
+  }
+  for (const Interrupt link : {Interrupt::kUsb, Interrupt::kUart0}) {
+    start_interrupt(link, Priority::kLink);
+  }
+}
+
+CrashRecord& Board::crash_record() {
+  return kept_crash_record;
+}
+
+std::uint32_t Board::stack_free_bytes() const {
+  return unused_stack_bytes();
+}
+
+/// 27 degC - (V - 0.706 V) / 1.721 mV/K (data sheet 4.9.5), in hundredths and integers.
+std::int16_t Board::temperature_cdeg() const {
+  const std::uint32_t code = sampler_.temperature_code();
+  if (code == 0) {
+    return wire::kUnknownTemperature;
+  }
+  const auto uv = static_cast<std::int32_t>(std::uint64_t{code} * kReferenceUv / Adc::kTopCode);
+  return static_cast<std::int16_t>(2700 - (uv - 706'000) * 100 / 1721);
+}
+
+/// An interrupt that comes just before the wait is noted, so that it is not slept through: with
+/// interrupts off `wfi` still wakes for one that is pending (ARMv6-M B1.5.19).
+void Board::sleep() {
+  asm volatile("cpsid i" ::: "memory");
+  if (!interrupted_) {
+    asm volatile("wfi" ::: "memory");
+  }
+  interrupted_ = false;
+  asm volatile("cpsie i" ::: "memory");
+}
+
+void on_timer_0() {
+  board.note_interrupt();
+  board.sampler().on_window_alarm();
+}
+void on_timer_1() {
+  board.note_interrupt();
+  board.sampler().on_wake_up_alarm();
+}
+void on_dma_0() {
+  board.note_interrupt();
+  board.sampler().on_burst_carried();
+}
+void on_usb() {
+  board.note_interrupt();
+  board.usb().on_interrupt();
+}
+void on_uart_0() {
+  board.note_interrupt();
+  board.uart().on_interrupt();
+}
+
+}  // namespace penduline::rp2040

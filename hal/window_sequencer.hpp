@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes a window burst by burst, in interrupts: switches the emitters, waits, converts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/concepts.hpp"
+#include "hal/interrupt_ring.hpp"
+#include "hal/window.hpp"
+
+namespace penduline {
+
+/// Windows that may wait for the main loop.
+inline constexpr std::size_t kWaitingWindows = 4;
+
+/// Runs through kBursts. All `on_...` are called from interrupts of one priority, `take` from the
+/// main loop. No call takes longer than a burst that the converter does by itself.
+template <Emitter Light, BurstConverter Adc, WakeUpTimer Timer>
+class WindowSequencer {
+ public:
+  WindowSequencer(Light& emitter, Adc& adc, Timer& timer)
+      : emitter_(emitter), adc_(adc), timer_(timer) {}
+
+  /// A window is due. While the one before is still running, or nobody took the ones before, it is
+  /// lost and counted.
+  void on_window_due(std::uint64_t start_us, std::uint32_t late_us, EmitterMode mode) {
+    Window* free = window_ == nullptr ? windows_.free_slot() : nullptr;
+    if (free == nullptr) {
+      on_window_missed();
+      return;
+    }
+    window_ = free;
+    window_->start_us = start_us;
+    window_->late_us = late_us;
+    window_->mode = mode;
+    window_->lost_before = lost_;
+    lost_ = 0;
+    burst_ = 0;
+    begin_burst();
+  }
+
+  /// A window was due and could not begin at all.
+  void on_window_missed() { ++lost_; }
+
+  /// Whether no window is running.
+  [[nodiscard]] bool idle() const { return window_ == nullptr; }
+
+  /// The emitters have settled.
+  void on_wake_up() {
+    if (window_ != nullptr) {
+      convert();
+    }
+  }
+
+  /// The converter has filled in a burst.
+  void on_burst_done() {
+    if (window_ == nullptr) {
+      return;
+    }
+    if (++burst_ < kBursts.size()) {
+      begin_burst();
+      return;
+    }
+    window_ = nullptr;
+    windows_.put();
+  }
+
+  bool take(Window& window) {
+    const Window* full = windows_.full_slot();
+    if (full == nullptr) {
+      return false;
+    }
+    window = *full;
+    windows_.drop();
+    return true;
+  }
+
+ private:
+  [[nodiscard]] bool to_be_lit() const {
+    return window_->mode == EmitterMode::kSwitched ? kBursts[burst_].lit
+                                                   : window_->mode == EmitterMode::kLit;
+  }
+
+  void begin_burst() {
+    if (to_be_lit() == lit_) {
+      convert();
+      return;
+    }
+    lit_ = !lit_;
+    emitter_.set(lit_);
+    timer_.wake_after(kSettlingUs);
+  }
+
+  void convert() {
+    std::uint16_t* codes = &window_->codes[burst_ * kConversionsPerBurst];
+    if (adc_.convert(kBursts[burst_].first_channel, codes)) {
+      on_burst_done();
+    }
+  }
+
+  Light& emitter_;
+  Adc& adc_;
+  Timer& timer_;
+  InterruptRing<Window, kWaitingWindows> windows_;
+  Window* window_ = nullptr;  ///< the one that is running
+  std::size_t burst_ = 0;
+  std::uint32_t lost_ = 0;
+  bool lit_ = false;
+};
+
+}  // namespace penduline
