@@ -73,11 +73,17 @@ template <class Scalar>
 class FirFilter {
  public:
   FirFilter() : FirFilter(design_lowpass(FilterDesign<Scalar>{})) {}
-  explicit FirFilter(const FirTaps<Scalar>& taps) : count_(taps.count) {
+  explicit FirFilter(const FirTaps<Scalar>& taps) { use(taps); }
+
+  /// Begins anew with other taps.
+  void use(const FirTaps<Scalar>& taps) {
+    count_ = taps.count;
+    taps_.fill(0);
     // The history runs from old to new, the taps of a linear-phase filter read the same both ways.
     for (std::size_t i = 0; i < count_; ++i) {
       taps_[i] = taps.values[count_ - 1 - i];
     }
+    clear();
   }
 
   /// Takes the next value and returns the filtered one.

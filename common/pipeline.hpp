@@ -40,7 +40,9 @@ class Pipeline {
         continuity_(acquisition.longest_step_us()) {
     const FirTaps<Scalar> taps = design_lowpass(
         rig.filter.value_or(default_filter(acquisition.rate_hz, small_swing_hz(rig.pendulum))));
-    filters_.fill(FirFilter<Scalar>(taps));
+    for (FirFilter<Scalar>& filter : filters_) {
+      filter.use(taps);
+    }
     moment_ = WindowMoment(taps.count, acquisition.period_us());
     window_flags_ = WindowFlags(taps.count);
   }

@@ -74,7 +74,7 @@ class Application {
  private:
   template <class... Links>
   Application(Board& board, std::tuple<Links&...> links)
-      : board_(board), ports_(Port<Links>(std::get<Links&>(links))...) {}
+      : board_(board), ports_(std::get<Links&>(links)...) {}
 
   static constexpr std::uint64_t kStatusPeriodUs = 1'000'000;
   static constexpr std::uint32_t kDefaultPeriodUs = 50'000;
@@ -258,7 +258,7 @@ class Application {
     if (const wire::Result result = upload_.finish(); result != wire::Result::kDone) {
       return result;
     }
-    if (!suits(wire::decode_rig(upload_.image()))) {
+    if (!is_suitable_rig(upload_.image())) {
       return wire::Result::kInvalidRig;
     }
     if (!write_rig(board_.store(), upload_.image())) {
@@ -278,6 +278,11 @@ class Application {
   /// Whether a rig is one of this board's two sensors.
   [[nodiscard]] static bool suits(const std::optional<Rig<float>>& rig) {
     return rig && rig->layout.count == kChannels;
+  }
+
+  /// Not inline, so that its rig is off the stack when the stored one is read.
+  [[gnu::noinline]] static bool is_suitable_rig(std::span<const std::uint8_t> image) {
+    return suits(wire::decode_rig(image));
   }
 
   void use_stored_rig() {

@@ -47,9 +47,9 @@ inline constexpr std::size_t kHeadBytes =
   if (mark == rig_store::kMark && size <= contents.size() - head.size()) {
     const auto image = contents.subspan(head.size(), size);
     if (wire::crc32(image) == crc) {
-      if (auto rig = wire::decode_rig(image)) {
-        return {.state = wire::StoreState::kValid, .rig = std::move(rig)};
-      }
+      StoredRig stored{.state = wire::StoreState::kValid, .rig = wire::decode_rig(image)};
+      stored.state = stored.rig ? wire::StoreState::kValid : wire::StoreState::kDamaged;
+      return stored;
     }
   }
   return {.state = wire::StoreState::kDamaged, .rig = {}};
