@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proof that the pipeline takes no memory from the heap: every operator new is counted.
+// Proof that the pipeline and the wire take no memory from the heap: every operator new is counted.
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <span>
+#include <tuple>
 
 #include "common/pipeline.hpp"
+#include "common/wire/decoder.hpp"
+#include "common/wire/rig_image.hpp"
 #include "tests/unit/common/test_rig.hpp"
 
 namespace {
@@ -128,6 +135,29 @@ TEST_CASE("The count sees an allocation of every form", "[no_heap]") {
 TEMPLATE_TEST_CASE("Making a pipeline and running it allocates nothing", "[no_heap]", float,
                    double) {
   CHECK(allocations_in(run_pipeline<TestType>) == 0);
+}
+
+/// Every message there and back, and a rig's image.
+void run_wire() {
+  std::array<std::uint8_t, wire::kMaxFrameBytes> frame{};
+  wire::Decoder decoder;
+  std::size_t read = 0;
+  wire::for_each_message([&]<wire::Message Kind>(const Kind& message) {
+    const std::size_t size = wire::encode_frame(message, frame);
+    decoder.push(std::span(frame).first(size), [&](const wire::Frame& found) {
+      read += wire::read_message<Kind>(found.payload) ? 1U : 0U;
+    });
+  });
+  std::array<std::uint8_t, wire::kMaxRigImageBytes> image{};
+  const std::size_t size = wire::encode_rig(linear_rig(three_sensor_layout<float>()), image);
+  if (read != std::tuple_size_v<wire::AllMessages> ||
+      !wire::decode_rig(std::span(image).first(size))) {
+    std::abort();
+  }
+}
+
+TEST_CASE("Sending and receiving allocates nothing", "[no_heap]") {
+  CHECK(allocations_in(run_wire) == 0);
 }
 
 }  // namespace
