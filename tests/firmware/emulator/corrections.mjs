@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rp2040js 1.4.1 gets wrong of the RP2040 (DS: its data sheet) and the Cortex-M0+, put right on one chip.
+
+/**
+ * @param {import('./chip.mjs').Chip} chip before its first instruction
+ */
+export function correct(chip) {
+  startOnRingOscillator(chip);
+  correctNvic(chip);
+  correctSleep(chip);
+  correctSystick(chip);
+  correctTimer(chip);
+  correctAdcSequence(chip);
+  correctAdcStatus(chip);
+  correctDmaAbort(chip);
+  correctWatchdogTick(chip);
+  correctOscillatorStart(chip);
+}
+
+/** Fault: clk_sys starts at 125 MHz. DS 2.15.1: it starts on the ring oscillator. */
+function startOnRingOscillator(chip) {
+  chip.updateClocks();
+}
+
+/**
+ * Fault: an interrupt is pending exactly while its line is high, and one pended by software (below 26) never
+ * ends. ARMv6-M B3.4.1: a rising line or ISPR latches the state; entering the handler clears it; a line still
+ * high at the return pends it again; ICPR clears it unless the line is high.
+ */
+function correctNvic({ core, ppb }) {
+  const kIspr = 0x200, kIcpr = 0x280;
+  let lines = 0;
+  const pend = (bits) => {
+    core.pendingInterrupts |= bits;
+    core.interruptsUpdated = true;
+    if (core.waiting && core.checkForInterrupts()) core.waiting = false;
+  };
+  core.setInterrupt = (irq, high) => {
+    const bit = 1 << irq;
+    const rises = high && !(lines & bit);
+    lines = high ? lines | bit : lines & ~bit;
+    if (rises) pend(bit);
+  };
+  const enter = core.exceptionEntry.bind(core);
+  core.exceptionEntry = (number) => {
+    if (number >= 16) core.pendingInterrupts &= ~(1 << (number - 16));
+    enter(number);
+  };
+  const leave = core.exceptionReturn.bind(core);
+  core.exceptionReturn = (code) => {
+    const number = core.IPSR;
+    leave(code);
+    if (number >= 16) core.pendingInterrupts |= lines & (1 << (number - 16));
+  };
+  const write = ppb.writeUint32.bind(ppb);
+  ppb.writeUint32 = (offset, value) => {
+    if (offset === kIspr) pend(value);
+    else if (offset === kIcpr) core.pendingInterrupts &= ~value | lines;
+    else write(offset, value);
+  };
+}
+
+/** True if something that is enabled waits to be taken, whatever PRIMASK says. */
+function hasWork(core) {
+  const interrupts = core.pendingInterrupts & core.enabledInterrupts;
+  return Boolean(interrupts || core.pendingSystick || core.pendingPendSV || core.pendingNMI);
+}
+
+/**
+ * Fault: WFI with PRIMASK set enters the handler on waking. ARMv6-M B1.5.17: it wakes, and the handler runs
+ * when PRIMASK is cleared.
+ */
+function correctSleep({ core }) {
+  const check = core.checkForInterrupts.bind(core);
+  core.checkForInterrupts = () => (core.waiting && core.PM ? hasWork(core) : check());
+}
+
+/**
+ * Faults: SysTick does not end WFI; its period is RVR cycles, not RVR + 1; writing CVR while it is to count
+ * pends the exception at once. ARMv6-M B3.3.1, B3.3.3.
+ */
+function correctSystick(chip) {
+  const kCsr = 0x10, kCvr = 0x18;
+  const { core, ppb } = chip;
+  const timer = ppb.systickTimer;
+  let cleared = true;
+  ppb.systickAlarm.callback = () => {
+    ppb.systickCountFlag = true;
+    timer.set(Math.min(ppb.systickReload + 1, 0xffffff));
+    if (!ppb.systickIntEnable) return;
+    core.pendingSystick = true;
+    core.interruptsUpdated = true;
+    if (core.waiting && core.checkForInterrupts()) core.waiting = false;
+  };
+  const write = ppb.writeUint32.bind(ppb);
+  ppb.writeUint32 = (offset, value) => {
+    if (offset === kCvr) {
+      cleared = true;
+      ppb.systickCountFlag = false;
+    }
+    const runs = offset === kCsr ? value & 1 : timer.enable;
+    if (cleared && runs && (offset === kCsr || offset === kCvr)) {
+      cleared = false;
+      timer.set(Math.min(ppb.systickReload + 1, 0xffffff));
+    }
+    if (offset !== kCvr) write(offset, value);
+  };
+  const read = ppb.readUint32.bind(ppb);
+  ppb.readUint32 = (offset) => {
+    if (offset !== kCvr) return read(offset);
+    return cleared ? 0 : Math.min(timer.counter, ppb.systickReload);
+  };
+}
+
+/**
+ * Fault: an alarm fires up to 1 us early, before TIMERAWL shows its value. DS 4.6.3: it fires when the lower 32 bits
+ * become equal. The nanosecond added to the time takes the rounding of 64-bit floats out of the microseconds.
+ */
+function correctTimer(chip) {
+  const kAlarm0 = 0x10, kAlarm3 = 0x1c, kTimelr = 0x0c, kTimerawl = 0x28;
+  const timer = chip.peripherals[0x40054];
+  const nanos = () => chip.clock.nanos + 1;
+  const read = timer.readUint32.bind(timer);
+  timer.readUint32 = (offset) => {
+    const value = read(offset);
+    return offset === kTimelr || offset === kTimerawl ? Math.floor(nanos() / 1000) >>> 0 : value;
+  };
+  const write = timer.writeUint32.bind(timer);
+  timer.writeUint32 = (offset, value) => {
+    write(offset, value);
+    if (offset < kAlarm0 || offset > kAlarm3) return;
+    const ahead = (value - Math.floor(nanos() / 1000)) >>> 0;
+    const within = nanos() % 1000;
+    timer.alarms[(offset - kAlarm0) / 4].clockAlarm.schedule(ahead === 0 ? 0 : ahead * 1000 - within + 1);
+  };
+}
+
+/**
+ * Faults: the round robin never leaves channel 0 (the setter masks with the shift); conversions go on with EN clear; a
+ * conversion paced by DIV survives START_MANY being cleared, and writing CS again starts another. DS 4.9.2.1, 4.9.5.
+ */
+function correctAdcSequence({ adc }) {
+  const kCs = 0, kEnable = 1, kStartOne = 1 << 2, kStartMany = 1 << 3;
+  Object.defineProperty(adc, 'activeChannel', {
+    get() { return (this.cs >> 12) & 7; },
+    set(channel) { this.cs = (this.cs & ~(7 << 12)) | ((channel % 5) << 12); },
+  });
+  const start = adc.startADCRead.bind(adc);
+  adc.startADCRead = () => adc.cs & kEnable && start();
+  const write = adc.writeUint32.bind(adc);
+  adc.writeUint32 = (offset, value) => {
+    const running = kEnable | kStartMany;
+    const continues = offset === kCs && (adc.cs & value & running) === running && !(value & kStartOne);
+    if (offset === kCs && (value & running) !== running) adc.multiShotAlarm.cancel();
+    if (!continues) return write(offset, value);
+    const idle = adc.busy;
+    adc.busy = true; // as if converting: the pacing in progress is left alone
+    write(offset, value);
+    adc.busy = idle;
+  };
+}
+
+/**
+ * Faults: START_ONE stays set and READY shows without EN (DS 4.9.5, CS); the interrupt outlives the FIFO's level
+ * (INTR); DREQ does not follow writes of FCS (DS 4.9.2.5); ERR_STICKY is cleared in the wrong register.
+ */
+function correctAdcStatus({ adc, dma }) {
+  const kCs = 0x00, kFcs = 0x08, kFifo = 0x0c, kDreqEnable = 1 << 3;
+  const read = adc.readUint32.bind(adc);
+  adc.readUint32 = (offset) => {
+    let value = read(offset);
+    if (offset === kFifo) adc.checkInterrupts();
+    if (offset === kCs) value &= adc.cs & 1 ? ~(1 << 2) : ~((1 << 2) | (1 << 8));
+    return value >>> 0;
+  };
+  const write = adc.writeUint32.bind(adc);
+  adc.writeUint32 = (offset, value) => {
+    const flags = adc.fcs;
+    write(offset, value);
+    if (offset === kCs) {
+      adc.fcs = flags;
+      adc.cs &= ~(value & (1 << 10));
+    }
+    if (offset === kFcs && value & kDreqEnable) adc.updateDMA();
+    if (offset === kFcs && !(value & kDreqEnable)) dma.clearDREQ(adc.dreq);
+  };
+}
+
+/** Fault: CHAN_ABORT reads as not implemented, so that waiting for its bits to clear never ends. DS 2.5.7. */
+function correctDmaAbort({ dma }) {
+  const kChanAbort = 0x444;
+  const read = dma.readUint32.bind(dma);
+  dma.readUint32 = (offset) => (offset === kChanAbort ? 0 : read(offset));
+}
+
+/** Fault: TICK reads without its CYCLES. DS 4.7.6. */
+function correctWatchdogTick(chip) {
+  const kTick = 0x2c;
+  const watchdog = chip.peripherals[0x40058];
+  let cycles = 0;
+  const read = watchdog.readUint32.bind(watchdog);
+  watchdog.readUint32 = (offset) => (offset === kTick ? read(offset) | cycles : read(offset));
+  const write = watchdog.writeUint32.bind(watchdog);
+  watchdog.writeUint32 = (offset, value) => {
+    if (offset === kTick) cycles = value & 0x1ff;
+    write(offset, value);
+  };
+}
+
+/** Faults: the crystal is stable and PLLs are locked at once. DS 2.16.3: after STARTUP * 256 cycles; 2.18.2: powered. */
+function correctOscillatorStart(chip) {
+  const xosc = chip.peripherals[0x40024];
+  const stable = chip.clock.createAlarm(() => { xosc.stable = xosc.enabled; });
+  const write = xosc.writeUint32.bind(xosc);
+  xosc.writeUint32 = (offset, value) => {
+    const before = xosc.stable;
+    write(offset, value);
+    if (offset !== 0 || before || !xosc.stable) return;
+    xosc.stable = false;
+    const cycles = 256 * (xosc.startup & 0x3fff) * (xosc.startup >> 20 ? 4 : 1);
+    stable.schedule((cycles * 1e9) / chip.xoscFreq);
+  };
+  for (const pll of [chip.pllSys, chip.pllUsb]) {
+    const read = pll.readUint32.bind(pll);
+    const kPowerDown = 1 << 0, kVcoPowerDown = 1 << 5, kLock = 0x7fffffff;
+    pll.readUint32 = (offset) => {
+      const value = read(offset);
+      return offset === 0 && pll.pwr & (kPowerDown | kVcoPowerDown) ? value & kLock : value >>> 0;
+    };
+  }
+}
