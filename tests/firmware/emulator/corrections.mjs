@@ -13,6 +13,7 @@ export function correct(chip) {
   correctAdcSequence(chip);
   correctAdcStatus(chip);
   correctDmaAbort(chip);
+  correctResets(chip);
   correctWatchdogTick(chip);
   correctOscillatorStart(chip);
 }
@@ -191,6 +192,42 @@ function correctDmaAbort({ dma }) {
   const kChanAbort = 0x444;
   const read = dma.readUint32.bind(dma);
   dma.readUint32 = (offset) => (offset === kChanAbort ? 0 : read(offset));
+}
+
+/**
+ * Fault: RESETS does nothing, and starts with everything out of reset. DS 2.14.3: all is held in reset but what the ROM
+ * has released; RESET_DONE follows; and a reset takes the USB pull-up away and stops ADC and DMA.
+ */
+function correctResets(chip) {
+  const kReset = 0, kAdc = 1 << 0, kDma = 1 << 2, kUsb = 1 << 24;
+  const kReleasedByRom = (1 << 6) | (1 << 9) | (1 << 18) | (1 << 19) | (1 << 20); // QSPI pads, SYSCFG, SYSINFO, TBMAN
+  const { adc, dma, usbCtrl } = chip;
+  const resets = chip.peripherals[0x4000c];
+  resets.reset = 0x1ffffff & ~kReleasedByRom;
+  Object.defineProperty(resets, 'reset_done', { get() { return 0x1ffffff & ~this.reset; }, set() {} });
+  const write = resets.writeUint32.bind(resets);
+  resets.writeUint32 = (offset, value) => {
+    const rising = offset === kReset ? value & ~resets.reset : 0;
+    if (rising & kAdc) resetAdc(adc);
+    if (rising & kDma) dma.channels.forEach((channel) => { channel.abort(); channel.reset(); });
+    if (rising & kUsb) resetUsb(usbCtrl);
+    write(offset, value);
+  };
+}
+
+function resetAdc(adc) {
+  const kCs = 0x00, kInte = 0x18;
+  adc.writeUint32(kCs, 0);
+  adc.writeUint32(kInte, 0);
+  adc.fcs = 0;
+  adc.fifo.reset();
+}
+
+function resetUsb(usb) {
+  const kSieControl = 0x4c;
+  usb.writeUint32(kSieControl, 0);
+  Object.assign(usb, { addrEndp: 0, mainCtrl: 0, intEnable: 0, intForce: 0, sieStatus: 0, buffStatus: 0, intRaw: 0 });
+  usb.checkInterrupts();
 }
 
 /** Fault: TICK reads without its CYCLES. DS 4.7.6. */

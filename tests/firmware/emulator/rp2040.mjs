@@ -168,7 +168,7 @@ export class Emulator {
       chip.adc.sampleAlarm.schedule(kConversionNanos);
     };
     this.#answerSystemReset(chip);
-    lint(this);
+    lint(chip);
   }
 
   #replacePeripherals(chip) {
