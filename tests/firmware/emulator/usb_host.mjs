@@ -58,9 +58,7 @@ export class UsbHost {
 
   /** Sends a SETUP packet; it ends whatever endpoint 0 was doing (USB 2.0 sec. 8.5.3). */
   setup(packet) {
-    if (this.controller.addrEndp !== this.address) {
-      this.#report(`device answers address ${this.controller.addrEndp}, expected ${this.address}`);
-    }
+    this.#checkAddress();
     for (const isIn of [true, false]) {
       for (const { done } of this.#queue(0, isIn).splice(0)) done({ status: 'cancelled' });
       this.toggles.set(key(0, isIn), 1);
@@ -114,9 +112,8 @@ export class UsbHost {
   }
 
   #connect() {
-    const muxing = 'USB pull-up on';
-    if (!(this.controller.mainCtrl & 1)) this.#report(`${muxing} while MAIN_CTRL.CONTROLLER_EN = 0`);
-    if (!(this.controller.sieStatus & 1)) this.#report(`${muxing} without VBUS detected (USB_PWR override)`);
+    if (!(this.controller.mainCtrl & 1)) this.#report('pull-up on while MAIN_CTRL.CONTROLLER_EN = 0');
+    if (!(this.controller.sieStatus & 1)) this.#report('pull-up on without VBUS detected (USB_PWR override)');
     if (this.plugged) this.controller.resetDevice();
   }
 
@@ -128,6 +125,11 @@ export class UsbHost {
     this.address = 0;
     if (this.attached) this.onDetach();
     this.attached = false;
+  }
+
+  #checkAddress() {
+    const answers = this.controller.addrEndp & 0x7f;
+    if (answers !== this.address) this.#report(`device answers address ${answers}, expected ${this.address}`);
   }
 
   #queue(endpoint, isIn) {
@@ -199,6 +201,7 @@ export class UsbHost {
     }
     if (control & kStall) this.#report('endpoint 0 stalled without EP_STALL_ARM');
     if (!(control & kAvailable)) return false; // NAK
+    this.#checkAddress();
     const expected = this.toggles.get(key(endpoint, isIn)) ?? 0, found = control & kData1 ? 1 : 0;
     if (found !== expected) this.#report(`${nameOf(endpoint, isIn)} uses DATA${found}, expected DATA${expected}`);
     this.toggles.set(key(endpoint, isIn), expected ^ 1);
