@@ -7,6 +7,7 @@ const kEndpointEnable = 0x80000000, kDoubleBuffered = 0x40000000;
 const kPullUp = 1 << 16; // SIE_CTRL
 const kConnected = 1 << 16, kSuspended = 1 << 4; // SIE_STATUS
 const kMaxPacket = 64;
+const kResetRecoveryNanos = 10e6; // USB 2.0 sec. 7.1.7.5
 const kTransactionNanos = 50e3; // a 64-byte transaction and its turn on the bus
 const kAvailableDelayCycles = 6; // clk_sys cycles that AVAILABLE must follow the rest by: 2 of clk_usb
 
@@ -37,6 +38,10 @@ export class UsbHost {
     this.onAttach = onAttach;
     this.onDetach = onDetach;
     this.alarm = this.chip.clock.createAlarm(() => this.#poll());
+    this.recovery = this.chip.clock.createAlarm(() => {
+      this.attached = true;
+      this.onAttach();
+    });
     this.#takeOver();
   }
 
@@ -96,9 +101,7 @@ export class UsbHost {
     controller.onEndpointRead = undefined;
     controller.onEndpointWrite = undefined;
     controller.onResetReceived = () => {
-      if (!this.plugged || this.attached) return;
-      this.attached = true;
-      this.onAttach();
+      if (this.plugged && !this.attached) this.recovery.schedule(kResetRecoveryNanos);
     };
     const handle = controller.handleSieCtrlWrite.bind(controller);
     controller.handleSieCtrlWrite = (value) => {
@@ -118,6 +121,7 @@ export class UsbHost {
   }
 
   #detach() {
+    this.recovery.cancel();
     for (const queue of this.queues.values()) {
       for (const { done } of queue.splice(0)) done({ status: 'cancelled' });
     }

@@ -4,8 +4,8 @@
 #include "rp2040.hpp"
 
 extern "C" {
-volatile Word reason, scratch, timer_at_start, uart_baud_at_start, boots, done;
-__attribute__((section(".kept"))) volatile Word kept, fault_pc;
+volatile Word timer_at_start, done;
+__attribute__((section(".kept"))) volatile Word kept, fault_pc, reasons[5], uart_divisors[5];
 
 void note_fault(const Word* frame) {
   fault_pc = frame[6];
@@ -20,16 +20,14 @@ __attribute__((naked, noinline)) void fault_here() { asm volatile("movs r0, #1\n
 }
 
 int main() {
-  const Word baud = read(kResets + 8) & kUartReset ? read(kUart0 + 0x24) : 0;
+  const Word scratch = read(kWatchdogScratch0);
+  if (scratch == 0) kept = 100;
+  kept = kept + 1;
+  reasons[scratch] = read(kWatchdogReason);
+  uart_divisors[scratch] = read(kResets + 8) & kUartReset ? read(kUart0 + 0x24) : 0;
+  write(kWatchdogScratch0, scratch + 1);
   start_board();
   timer_at_start = now_us();
-  uart_baud_at_start = baud;
-  reason = read(kWatchdogReason);
-  scratch = read(kWatchdogScratch0);
-  if (scratch == 0) kept = 100;
-  write(kWatchdogScratch0, scratch + 1);
-  kept = kept + 1;
-  boots = scratch + 1;
   start_uart();
 #ifndef MISTAKE_NO_SELECTION
   write(kPsm + 8, 0x1fffc);

@@ -42,15 +42,18 @@ __attribute__((section(".ram"), noinline)) static void map_flash() {
 }
 
 __attribute__((section(".ram"), noinline)) static void unmap_flash() {
+#ifndef MISTAKE_NO_UNMAP
 #ifndef MISTAKE_NO_CONNECT
   rom.connect();
+#endif
   rom.leave_xip();
 #endif
 }
 
 __attribute__((section(".ram"), noinline)) static void read_unique_id() {
   disable_interrupts();
-  unmap_flash();
+  rom.connect();
+  rom.leave_xip();
   write(kSelect, 2u << 8);
   for (Word i = 0; i < 13; ++i) {
     write(kSsi + 0x60, i == 0 ? 0x4b : 0);
