@@ -167,6 +167,7 @@ export class Emulator {
       chip.adc.currentChannel = channel;
       chip.adc.sampleAlarm.schedule(kConversionNanos);
     };
+    chip.usbCtrl.DPRAMUpdated = () => {}; // no host: nothing takes or gives data
     this.#answerSystemReset(chip);
     lint(chip);
   }

@@ -4,7 +4,8 @@
 #include "rp2040.hpp"
 
 constexpr Word kEnable = 1, kStartOne = 1u << 2, kStartMany = 1u << 3, kReady = 1u << 8;
-constexpr Word kDmaChannel = kDma, kDmaEnables = kDma + 0x404, kDmaStatus = kDma + 0x40c, kDmaAbort = kDma + 0x444;
+constexpr Word kDmaChannel = kDma, kDmaEnables = kDma + 0x404, kDmaStatus = kDma + 0x40c,
+               kDmaAbort = kDma + 0x444;
 constexpr Word kBlocks = 12, kBlock = 32;
 
 extern "C" {
@@ -14,26 +15,30 @@ std::uint16_t blocks[kBlocks][kBlock];
 
 void on_adc() {
   fifo_interrupts = fifo_interrupts + 1;
-  read(kAdcFifo); // one interrupt per result: the level is gone
+  read(kAdcFifo);  // one interrupt per result: the level is gone
 }
 
 static void start_block(Word block) {
   write(kDmaChannel, kAdcFifo);
   write(kDmaChannel + 4, reinterpret_cast<Word>(blocks[block]));
   write(kDmaChannel + 8, kBlock);
-  write(kDmaChannel + 0xc, 36u << 15 | 1u << 5 | 1u << 2 | 1u); // DREQ_ADC, 16 bits, write address counts
+  write(kDmaChannel + 0xc,
+        36u << 15 | 1u << 5 | 1u << 2 | 1u);  // DREQ_ADC, 16 bits, write address counts
 }
 
 void on_dma0() {
   write(kDmaStatus, 1);
   blocks_done = blocks_done + 1;
-  if (blocks_done < kBlocks) start_block(blocks_done);
-  else write(kAdcControl, kEnable);
+  if (blocks_done < kBlocks)
+    start_block(blocks_done);
+  else
+    write(kAdcControl, kEnable);
 }
 }
 
 static void empty_fifo() {
-  while (!(read(kAdcFifoControl) & 1u << 8)) read(kAdcFifo);
+  while (!(read(kAdcFifoControl) & 1u << 8))
+    read(kAdcFifo);
 }
 
 static void wait_us(Word us) {
@@ -75,19 +80,21 @@ static void probe_fifo_interrupt() {
   fifo_level_after = read(kAdcFifoControl) >> 16 & 0xf;
 }
 
-static Word level() { return read(kAdcFifoControl) >> 16 & 0xf; }
+static Word level() {
+  return read(kAdcFifoControl) >> 16 & 0xf;
+}
 
 static void probe_pacing() {
   write(kAdcFifoControl, 1);
-  write(kAdcDivider, 4799u << 8); // 100 us
+  write(kAdcDivider, 4799u << 8);  // 100 us
   write(kAdcControl, kEnable | kStartMany);
   wait_us(50);
-  write(kAdcControl, kEnable | kStartMany); // goes on as it was
+  write(kAdcControl, kEnable | kStartMany);  // goes on as it was
   wait_us(10);
   paced_conversions = level();
   write(kAdcControl, kEnable);
   wait_us(20);
-  write(kAdcControl, kEnable | kStartMany); // starts over; the old pace is forgotten
+  write(kAdcControl, kEnable | kStartMany);  // starts over; the old pace is forgotten
   wait_us(50);
   restarted_conversions = level() - paced_conversions;
   write(kAdcControl, kEnable);
@@ -101,7 +108,8 @@ static void probe_dma() {
   enable_interrupt(11);
   start_block(0);
   write(kAdcControl, kEnable | 3u << 16 | kStartMany);
-  while (blocks_done < kBlocks) sleep();
+  while (blocks_done < kBlocks)
+    sleep();
   write(kDmaAbort, 1);
   abort_reads = read(kDmaAbort);
 }

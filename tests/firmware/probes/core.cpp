@@ -15,10 +15,13 @@ void on_timer0() {
   write(kTimerInterrupts, 1);
 }
 
-void on_timer1() { software_interrupts = software_interrupts + 1; }
+void on_timer1() {
+  software_interrupts = software_interrupts + 1;
+}
 void on_systick() {
   systick_last_us = now_us();
-  if (systick_count == 0) systick_first_us = systick_last_us;
+  if (systick_count == 0)
+    systick_first_us = systick_last_us;
   systick_count = systick_count + 1;
 }
 }
@@ -27,10 +30,11 @@ static void probe_clocks() {
   resets_done_at_start = read(kResets + 8);
   release(kIoReset | kPadsReset | kPllsReset);
   pll_lock_while_off = read(kPllSys) >> 31;
-  Word polls = 0; // of about 10 cycles of 6.5 MHz
+  Word polls = 0;  // of about 10 cycles of 6.5 MHz
   write(kXosc + 0xc, 47);
   write(kXosc, 0xfabaa0);
-  while (!(read(kXosc + 4) >> 31)) ++polls;
+  while (!(read(kXosc + 4) >> 31))
+    ++polls;
   crystal_polls = polls;
   start_board();
   tick_register = read(kWatchdogTick) & 0x3ff;
@@ -47,7 +51,7 @@ static void probe_interrupts() {
   write(kTimerAlarm0, now_us() + 20);
   for (Word start = now_us(); now_us() - start < 50;) {
   }
-  write(kTimerInterrupts, 1); // the line falls, the NVIC remembers
+  write(kTimerInterrupts, 1);  // the line falls, the NVIC remembers
   enable_interrupts();
   latched_interrupts = alarm_fired;
 
@@ -61,7 +65,7 @@ static void probe_interrupts() {
 
   disable_interrupts();
   write(kNvicPend, 1u << 1);
-  sleep(); // does not: there is work
+  sleep();  // does not: there is work
   already_pending_wakes = 1;
   enable_interrupts();
 }
@@ -70,7 +74,8 @@ static void probe_alarms() {
   alarm_asked = now_us() + 37;
   write(kTimerAlarm0, alarm_asked);
   alarm_fired = 0;
-  while (!alarm_fired) sleep();
+  while (!alarm_fired)
+    sleep();
 }
 
 static void probe_systick() {

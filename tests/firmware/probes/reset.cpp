@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows what resets keep: watchdog time-out, watchdog trigger, the processor alone, and a recorded HardFault.
+// Shows what resets keep: watchdog time-out, watchdog trigger, the processor alone, and a recorded
+// HardFault.
 
 #include "rp2040.hpp"
 
@@ -14,14 +15,19 @@ void note_fault(const Word* frame) {
   }
 }
 
-__attribute__((naked)) void on_hard_fault() { asm volatile("mrs r0, msp\nbl note_fault"); }
+__attribute__((naked)) void on_hard_fault() {
+  asm volatile("mrs r0, msp\nbl note_fault");
+}
 
-__attribute__((naked, noinline)) void fault_here() { asm volatile("movs r0, #1\nldr r0, [r0]\nbx lr"); }
+__attribute__((naked, noinline)) void fault_here() {
+  asm volatile("movs r0, #1\nldr r0, [r0]\nbx lr");
+}
 }
 
 int main() {
   const Word scratch = read(kWatchdogScratch0);
-  if (scratch == 0) kept = 100;
+  if (scratch == 0)
+    kept = 100;
   kept = kept + 1;
   reasons[scratch] = read(kWatchdogReason);
   uart_divisors[scratch] = read(kResets + 8) & kUartReset ? read(kUart0 + 0x24) : 0;
@@ -38,8 +44,11 @@ int main() {
     for (;;) {
     }
   }
-  if (scratch == 1) write(kWatchdogControl, 1u << 31);
-  if (scratch == 2) write(kSystemReset, 0x05fa0004);
-  if (scratch == 3) fault_here();
+  if (scratch == 1)
+    write(kWatchdogControl, 1u << 31);
+  if (scratch == 2)
+    write(kSystemReset, 0x05fa0004);
+  if (scratch == 3)
+    fault_here();
   done = 1;
 }

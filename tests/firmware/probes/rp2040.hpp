@@ -6,34 +6,54 @@
 
 using Word = std::uint32_t;
 
-inline volatile Word& at(Word address) { return *reinterpret_cast<volatile Word*>(address); }
-inline Word read(Word address) { return at(address); }
-inline void write(Word address, Word value) { at(address) = value; }
-inline void set_bits(Word address, Word bits) { at(address + 0x2000) = bits; }
-inline void clear_bits(Word address, Word bits) { at(address + 0x3000) = bits; }
+inline volatile Word& at(Word address) {
+  return *reinterpret_cast<volatile Word*>(address);
+}
+inline Word read(Word address) {
+  return at(address);
+}
+inline void write(Word address, Word value) {
+  at(address) = value;
+}
+inline void set_bits(Word address, Word bits) {
+  at(address + 0x2000) = bits;
+}
+inline void clear_bits(Word address, Word bits) {
+  at(address + 0x3000) = bits;
+}
 
 constexpr Word kClocks = 0x40008000, kResets = 0x4000c000, kPsm = 0x40010000, kIoBank0 = 0x40014000;
-constexpr Word kPadsBank0 = 0x4001c000, kXosc = 0x40024000, kPllSys = 0x40028000, kPllUsb = 0x4002c000;
+constexpr Word kPadsBank0 = 0x4001c000, kXosc = 0x40024000, kPllSys = 0x40028000,
+               kPllUsb = 0x4002c000;
 constexpr Word kUart0 = 0x40034000, kAdc = 0x4004c000, kTimer = 0x40054000, kWatchdog = 0x40058000;
 constexpr Word kDma = 0x50000000, kSio = 0xd0000000;
 
 constexpr Word kClkRefControl = kClocks + 0x30, kClkRefSelected = kClocks + 0x38;
 constexpr Word kClkSysControl = kClocks + 0x3c, kClkSysSelected = kClocks + 0x44;
-constexpr Word kClkPeriControl = kClocks + 0x48, kClkUsbControl = kClocks + 0x54, kClkAdcControl = kClocks + 0x60;
-constexpr Word kWatchdogControl = kWatchdog, kWatchdogLoad = kWatchdog + 4, kWatchdogReason = kWatchdog + 8;
+constexpr Word kClkPeriControl = kClocks + 0x48, kClkUsbControl = kClocks + 0x54,
+               kClkAdcControl = kClocks + 0x60;
+constexpr Word kWatchdogControl = kWatchdog, kWatchdogLoad = kWatchdog + 4,
+               kWatchdogReason = kWatchdog + 8;
 constexpr Word kWatchdogScratch0 = kWatchdog + 0x0c, kWatchdogTick = kWatchdog + 0x2c;
-constexpr Word kTimerAlarm0 = kTimer + 0x10, kTimerRawLow = kTimer + 0x28, kTimerInterrupts = kTimer + 0x34;
+constexpr Word kTimerAlarm0 = kTimer + 0x10, kTimerRawLow = kTimer + 0x28,
+               kTimerInterrupts = kTimer + 0x34;
 constexpr Word kTimerEnables = kTimer + 0x38;
-constexpr Word kAdcControl = kAdc, kAdcResult = kAdc + 4, kAdcFifoControl = kAdc + 8, kAdcFifo = kAdc + 0x0c;
+constexpr Word kAdcControl = kAdc, kAdcResult = kAdc + 4, kAdcFifoControl = kAdc + 8,
+               kAdcFifo = kAdc + 0x0c;
 constexpr Word kAdcDivider = kAdc + 0x10, kAdcEnables = kAdc + 0x18;
-constexpr Word kUartData = kUart0, kUartFlags = kUart0 + 0x18, kUartMask = kUart0 + 0x38, kUartClear = kUart0 + 0x44;
+constexpr Word kUartData = kUart0, kUartFlags = kUart0 + 0x18, kUartMask = kUart0 + 0x38,
+               kUartClear = kUart0 + 0x44;
 
-constexpr Word kSysTickControl = 0xe000e010, kSysTickReload = 0xe000e014, kSysTickValue = 0xe000e018;
-constexpr Word kNvicEnable = 0xe000e100, kNvicDisable = 0xe000e180, kNvicPend = 0xe000e200, kNvicUnpend = 0xe000e280;
+constexpr Word kSysTickControl = 0xe000e010, kSysTickReload = 0xe000e014,
+               kSysTickValue = 0xe000e018;
+constexpr Word kNvicEnable = 0xe000e100, kNvicDisable = 0xe000e180, kNvicPend = 0xe000e200,
+               kNvicUnpend = 0xe000e280;
 constexpr Word kSystemReset = 0xe000ed0c;
 
-constexpr Word kTimerReset = 1u << 21, kAdcReset = 1u << 0, kDmaReset = 1u << 2, kUartReset = 1u << 22;
-constexpr Word kUsbReset = 1u << 24, kIoReset = 1u << 5, kPadsReset = 1u << 8, kPllsReset = 3u << 12;
+constexpr Word kTimerReset = 1u << 21, kAdcReset = 1u << 0, kDmaReset = 1u << 2,
+               kUartReset = 1u << 22;
+constexpr Word kUsbReset = 1u << 24, kIoReset = 1u << 5, kPadsReset = 1u << 8,
+               kPllsReset = 3u << 12;
 
 inline void release(Word resets) {
   clear_bits(kResets, resets);
@@ -105,8 +125,18 @@ inline void start_uart() {
   choose_function(1, 2);
 }
 
-inline Word now_us() { return read(kTimerRawLow); }
-inline void enable_interrupt(Word number) { write(kNvicEnable, 1u << number); }
-inline void disable_interrupts() { asm volatile("cpsid i" ::: "memory"); }
-inline void enable_interrupts() { asm volatile("cpsie i\nnop\nnop" ::: "memory"); }
-inline void sleep() { asm volatile("wfi" ::: "memory"); }
+inline Word now_us() {
+  return read(kTimerRawLow);
+}
+inline void enable_interrupt(Word number) {
+  write(kNvicEnable, 1u << number);
+}
+inline void disable_interrupts() {
+  asm volatile("cpsid i" ::: "memory");
+}
+inline void enable_interrupts() {
+  asm volatile("cpsie i\nnop\nnop" ::: "memory");
+}
+inline void sleep() {
+  asm volatile("wfi" ::: "memory");
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the flash: unique id by direct commands, erase and program by the ROM's functions, and what stays.
+// Shows the flash: unique id by direct commands, erase and program by the ROM's functions, and what
+// stays.
 
 #include "rp2040.hpp"
 
@@ -60,7 +61,8 @@ __attribute__((section(".ram"), noinline)) static void read_unique_id() {
     while (!(read(kSsi + 0x28) & 8)) {
     }
     const Word byte = read(kSsi + 0x60);
-    if (i >= 5) unique_id[i - 5] = static_cast<std::uint8_t>(byte);
+    if (i >= 5)
+      unique_id[i - 5] = static_cast<std::uint8_t>(byte);
   }
   write(kSelect, 0);
   rom.flush();
@@ -73,20 +75,26 @@ __attribute__((noinline))
 #else
 __attribute__((section(".ram"), noinline))
 #endif
-static void change_flash(bool erase) {
+static void
+change_flash(bool erase) {
   disable_interrupts();
   unmap_flash();
-  if (erase) rom.erase(FLASH_OFFSET, 4096, 1u << 16, 0xd8);
-  else rom.program(FLASH_OFFSET, page, 256);
+  if (erase)
+    rom.erase(FLASH_OFFSET, 4096, 1u << 16, 0xd8);
+  else
+    rom.program(FLASH_OFFSET, page, 256);
   map_flash();
   enable_interrupts();
 }
 
-static volatile Word& stored() { return at(0x10000000 + (FLASH_OFFSET & ~0xfffu)); }
+static volatile Word& stored() {
+  return at(0x10000000 + (FLASH_OFFSET & ~0xfffu));
+}
 
 int main() {
   start_board();
-  if (read(kWatchdogReason) == 0) runs = 0;
+  if (read(kWatchdogReason) == 0)
+    runs = 0;
   runs = runs + 1;
   boots = runs;
   rom.connect = rom_function<Action>('I', 'F');
@@ -110,5 +118,6 @@ int main() {
     write(kWatchdogScratch0, 0xcafe);
     write(kWatchdogControl, 1u << 31);
   }
-  if (runs == 2) rom_function<void (*)(Word, Word)>('U', 'B')(0, 0);
+  if (runs == 2)
+    rom_function<void (*)(Word, Word)>('U', 'B')(0, 0);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small CDC-ACM device that counts for its reader and sends back what it is sent; macros plant one mistake each.
+// A small CDC-ACM device that counts for its reader and sends back what it is sent; macros plant
+// one mistake each.
 
 #include "rp2040.hpp"
 #include "usb_descriptors.hpp"
@@ -9,17 +10,24 @@ constexpr Mistake kMistake = Mistake::MISTAKE;
 #else
 constexpr Mistake kMistake = Mistake::none;
 #endif
-constexpr bool wrong(Mistake mistake) { return mistake == kMistake; }
+constexpr bool wrong(Mistake mistake) {
+  return mistake == kMistake;
+}
 
 constexpr Word kDpram = 0x50100000, kUsb = 0x50110000;
 constexpr Word kMainControl = kUsb + 0x40, kSieControl = kUsb + 0x4c, kSieStatus = kUsb + 0x50;
-constexpr Word kBufferStatus = kUsb + 0x58, kStallArm = kUsb + 0x68, kMuxing = kUsb + 0x74, kPower = kUsb + 0x78;
+constexpr Word kBufferStatus = kUsb + 0x58, kStallArm = kUsb + 0x68, kMuxing = kUsb + 0x74,
+               kPower = kUsb + 0x78;
 constexpr Word kUsbEnables = kUsb + 0x90, kUsbStatus = kUsb + 0x98;
 constexpr Word kFull = 1u << 15, kData1 = 1u << 13, kStall = 1u << 11, kAvailable = 1u << 10;
 constexpr Word kControlBuffer = 0x100, kInBuffer = 0x1c0, kOutBuffer = 0x200;
 
-constexpr Word buffer_control(Word endpoint, bool in) { return kDpram + 0x80 + 8 * endpoint + (in ? 0 : 4); }
-constexpr Word endpoint_control(Word endpoint, bool in) { return kDpram + 8 * endpoint + (in ? 0 : 4); }
+constexpr Word buffer_control(Word endpoint, bool in) {
+  return kDpram + 0x80 + 8 * endpoint + (in ? 0 : 4);
+}
+constexpr Word endpoint_control(Word endpoint, bool in) {
+  return kDpram + 8 * endpoint + (in ? 0 : 4);
+}
 
 struct Device {
   const std::uint8_t* reply;
@@ -28,22 +36,27 @@ struct Device {
   std::uint8_t coding[8], counter;
 };
 static Device device;
-extern "C" { volatile Word baud, line_state; }
+extern "C" {
+volatile Word baud, line_state;
+}
 
 static void arm(Word endpoint, bool in, Word value) {
-  if (!wrong(Mistake::available_at_once)) write(buffer_control(endpoint, in), value);
+  if (!wrong(Mistake::available_at_once))
+    write(buffer_control(endpoint, in), value);
   asm volatile("nop\nnop\nnop\nnop\nnop\nnop\nnop\nnop\nnop\nnop\nnop\nnop");
   write(buffer_control(endpoint, in), value | kAvailable);
 }
 
 static void copy_in(Word buffer, const std::uint8_t* bytes, Word count) {
   auto* to = reinterpret_cast<volatile std::uint8_t*>(kDpram + buffer);
-  for (Word i = 0; i < count; ++i) to[i] = bytes[i];
+  for (Word i = 0; i < count; ++i)
+    to[i] = bytes[i];
 }
 
 static void send_control(const std::uint8_t* bytes, Word count) {
   copy_in(kControlBuffer, bytes, count);
-  arm(0, true, count | (wrong(Mistake::no_full) ? 0 : kFull) | (device.control_toggle ? kData1 : 0));
+  arm(0, true,
+      count | (wrong(Mistake::no_full) ? 0 : kFull) | (device.control_toggle ? kData1 : 0));
   device.control_toggle ^= 1;
 }
 
@@ -53,7 +66,8 @@ static void acknowledge() {
 }
 
 static void refuse() {
-  if (!wrong(Mistake::no_stall_arm)) set_bits(kStallArm, 3);
+  if (!wrong(Mistake::no_stall_arm))
+    set_bits(kStallArm, 3);
   write(buffer_control(0, true), kStall);
   write(buffer_control(0, false), kStall);
 }
@@ -79,8 +93,10 @@ static void arm_out() {
 }
 
 static void send_count() {
-  for (Word i = 0; i < 64; ++i) reinterpret_cast<volatile std::uint8_t*>(kDpram + kInBuffer)[i] = device.counter++;
-  if (wrong(Mistake::stalled_bulk)) return write(buffer_control(2, true), kStall);
+  for (Word i = 0; i < 64; ++i)
+    reinterpret_cast<volatile std::uint8_t*>(kDpram + kInBuffer)[i] = device.counter++;
+  if (wrong(Mistake::stalled_bulk))
+    return write(buffer_control(2, true), kStall);
   const bool data1 = device.in_toggle && !wrong(Mistake::no_toggle);
   arm(2, true, 64 | kFull | (data1 ? kData1 : 0));
   device.in_toggle ^= 1;
@@ -89,7 +105,8 @@ static void send_count() {
 static void configure() {
   const Word enable = wrong(Mistake::no_endpoint_enable) ? 1u << 29 : 1u << 31 | 1u << 29;
   const Word buffers = wrong(Mistake::double_buffer) ? enable | 1u << 30 : enable;
-  write(endpoint_control(2, true), buffers | 2u << 26 | (wrong(Mistake::low_buffer) ? 0x140 : kInBuffer));
+  write(endpoint_control(2, true),
+        buffers | 2u << 26 | (wrong(Mistake::low_buffer) ? 0x140 : kInBuffer));
   write(endpoint_control(2, false), enable | 2u << 26 | kOutBuffer);
   device.in_toggle = device.out_toggle = 0;
   device.configured = true;
@@ -98,23 +115,30 @@ static void configure() {
 }
 
 static void on_descriptor_request(Word kind, Word index, Word length) {
-  if (kind == 1) return reply(kDeviceDescriptor, length);
-  if (kind == 2) return reply(kConfigurationDescriptor, length);
-  if (kind == 3 && index == 0) return reply(kLanguages, length);
-  if (kind == 3 && index < 4 && !wrong(Mistake::no_strings)) return reply(kName, length);
+  if (kind == 1)
+    return reply(kDeviceDescriptor, length);
+  if (kind == 2)
+    return reply(kConfigurationDescriptor, length);
+  if (kind == 3 && index == 0)
+    return reply(kLanguages, length);
+  if (kind == 3 && index < 4 && !wrong(Mistake::no_strings))
+    return reply(kName, length);
   refuse();
 }
 
 static void on_setup() {
   const auto* packet = reinterpret_cast<const volatile std::uint8_t*>(kDpram);
-  const Word type = packet[0], code = packet[1], value = packet[2], high = packet[3], length = packet[6];
+  const Word type = packet[0], code = packet[1], value = packet[2], high = packet[3],
+             length = packet[6];
   device.control_toggle = 1;
   device.replies = device.takes_coding = false;
   device.new_address = 0;
-  if (type == 0x80 && code == 6) return on_descriptor_request(high, value, length);
+  if (type == 0x80 && code == 6)
+    return on_descriptor_request(high, value, length);
   if (type == 0 && code == 5) {
     device.new_address = value;
-    if (wrong(Mistake::address_early)) write(kUsb, value);
+    if (wrong(Mistake::address_early))
+      write(kUsb, value);
     return acknowledge();
   }
   if (type == 0 && code == 9 && !wrong(Mistake::no_configuration)) {
@@ -125,7 +149,8 @@ static void on_setup() {
     device.takes_coding = true;
     return arm(0, false, 64 | kData1);
   }
-  if (type == 0xa1 && code == 0x21) return reply({device.coding, 7}, length);
+  if (type == 0xa1 && code == 0x21)
+    return reply({device.coding, 7}, length);
   if (type == 0x21 && code == 0x22) {
     line_state = value;
     return acknowledge();
@@ -134,26 +159,31 @@ static void on_setup() {
 }
 
 static void on_control_sent() {
-  if (device.new_address) write(kUsb, device.new_address);
+  if (device.new_address)
+    write(kUsb, device.new_address);
   device.new_address = 0;
-  if (!device.replies) return;
-  if (device.reply_left) return reply_more();
+  if (!device.replies)
+    return;
+  if (device.reply_left)
+    return reply_more();
   device.replies = false;
   arm(0, false, kData1);
 }
 
 static void on_control_received() {
-  if (!device.takes_coding) return;
+  if (!device.takes_coding)
+    return;
   device.takes_coding = false;
   const auto* from = reinterpret_cast<const volatile std::uint8_t*>(kDpram + kControlBuffer);
-  for (Word i = 0; i < 7; ++i) device.coding[i] = from[i];
+  for (Word i = 0; i < 7; ++i)
+    device.coding[i] = from[i];
   baud = static_cast<Word>(device.coding[1] << 8 | device.coding[0]);
   acknowledge();
 }
 
 static void on_received() {
   const auto* from = reinterpret_cast<const volatile std::uint8_t*>(kDpram + kOutBuffer);
-  device.counter = from[0]; // what is sent sets the count
+  device.counter = from[0];  // what is sent sets the count
   arm_out();
 }
 
@@ -168,26 +198,37 @@ extern "C" void on_usb() {
     write(kSieStatus, 1u << 17);
     on_setup();
   }
-  if (!(status & 1u << 4)) return;
+  if (!(status & 1u << 4))
+    return;
   const Word buffers = read(kBufferStatus);
   write(kBufferStatus, buffers);
-  if (buffers & 1u) on_control_sent();
-  if (buffers & 2u) on_control_received();
-  if (buffers & 1u << 4 && device.configured) send_count();
-  if (buffers & 1u << 5 && device.configured) on_received();
+  if (buffers & 1u)
+    on_control_sent();
+  if (buffers & 2u)
+    on_control_received();
+  if (buffers & 1u << 4 && device.configured)
+    send_count();
+  if (buffers & 1u << 5 && device.configured)
+    on_received();
 }
 
 int main() {
   start_board();
-  if (wrong(Mistake::no_clock)) write(kClkUsbControl, 0);
+  if (wrong(Mistake::no_clock))
+    write(kClkUsbControl, 0);
   release(kUsbReset);
-  for (Word word = 0; word < 0x1000; word += 4) write(kDpram + word, 0);
+  for (Word word = 0; word < 0x1000; word += 4)
+    write(kDpram + word, 0);
   write(kMuxing, 9);
-  if (!wrong(Mistake::no_vbus)) write(kPower, 0xc);
-  if (!wrong(Mistake::no_controller)) write(kMainControl, 1);
+  if (!wrong(Mistake::no_vbus))
+    write(kPower, 0xc);
+  if (!wrong(Mistake::no_controller))
+    write(kMainControl, 1);
   write(kSieControl, 1u << 29);
   write(kUsbEnables, 1u << 4 | 1u << 12 | 1u << 16);
   enable_interrupt(5);
-  if (!wrong(Mistake::no_pull_up)) set_bits(kSieControl, 1u << 16);
-  for (;;) sleep();
+  if (!wrong(Mistake::no_pull_up))
+    set_bits(kSieControl, 1u << 16);
+  for (;;)
+    sleep();
 }
