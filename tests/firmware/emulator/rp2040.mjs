@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs an RP2040 ELF in virtual time: boot, sleep, resets, pins, analogue inputs and UART0.
+// Runs an RP2040 image in virtual time: boot, sleep, resets, pins, analogue inputs and UART0.
 
 import { GPIOPinState } from 'rp2040js';
 import { BootRom } from './bootrom.mjs';
@@ -10,6 +10,7 @@ import { Ssi } from './flash.mjs';
 import { lint } from './lint.mjs';
 import { ChipReset, IoQspi, RingOscillator } from './registers.mjs';
 import { Uart } from './uart.mjs';
+import { readUf2 } from './uf2.mjs';
 
 const kFlash = 0x10000000, kSram = 0x20000000, kVectors = 0x10000100;
 const kUart0Interrupt = 20, kUart1Interrupt = 21;
@@ -17,7 +18,7 @@ const kConversionNanos = 2000; // 96 cycles of 48 MHz
 
 export class Emulator {
   /**
-   * @param {string} elfPath
+   * @param {string} imagePath an ELF, or a UF2, which has no symbols
    * @param {object} [options]
    * @param {'rom' | 'vectors'} [options.boot] through boot2 as the mask ROM does (default), or straight at the vectors
    * @param {Uint8Array} [options.uniqueId] the flash's eight bytes
@@ -25,7 +26,7 @@ export class Emulator {
    * @param {(emulator: Emulator) => void} [options.onReset] called for each chip before its first instruction,
    *   also the first
    */
-  constructor(elfPath, { boot = 'rom', uniqueId, timerMicros = 0, onReset = () => {} } = {}) {
+  constructor(imagePath, { boot = 'rom', uniqueId, timerMicros = 0, onReset = () => {} } = {}) {
     this.bootMode = boot;
     this.uniqueId = uniqueId ?? Uint8Array.of(0xe6, 0x60, 0x58, 0x38, 0x83, 0x1b, 0x2c, 0x21);
     this.onReset = onReset;
@@ -39,10 +40,11 @@ export class Emulator {
     this.pastNanos = 0; // virtual time before this boot
     this.analogSource = () => 0;
     this.uart = { bytes: [], write: (bytes) => this.mcu.uart[0].feed(bytes) };
-    const { segments, symbols } = readElf(elfPath);
+    const isUf2 = imagePath.endsWith('.uf2');
+    const { segments, symbols } = isUf2 ? { segments: readUf2(imagePath), symbols: new Map() } : readElf(imagePath);
     this.symbols = symbols;
     this.#powerOn(timerMicros * 1000);
-    for (const segment of segments) this.#place(elfPath, segment);
+    for (const segment of segments) this.#place(imagePath, segment);
     this.#start();
   }
 
@@ -135,10 +137,10 @@ export class Emulator {
     this.interrupted = true;
   }
 
-  #place(elfPath, { address, bytes }) {
+  #place(imagePath, { address, bytes }) {
     const offset = address - kFlash;
     if (offset < 0 || offset + bytes.length > kFlashBytes) {
-      throw new Error(`${elfPath}: segment at 0x${address.toString(16)}, expected all in 2 MiB of flash`);
+      throw new Error(`${imagePath}: segment at 0x${address.toString(16)}, expected all in 2 MiB of flash`);
     }
     this.mcu.flash.set(bytes, offset);
   }

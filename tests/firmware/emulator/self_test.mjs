@@ -2,9 +2,11 @@
 // Shows that the emulator does what the data sheets say, by probes that run on it; one probe, several statements.
 
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { test } from 'node:test';
 import { buildProbe } from '../probes/build.mjs';
 import { CdcPort } from './cdc.mjs';
+import { readElf } from './elf.mjs';
 import { Emulator } from './rp2040.mjs';
 
 /** A probe that has run for `seconds` without a problem. */
@@ -150,6 +152,32 @@ test('the flash answers, changes as NOR flash does, and outlives a reset', async
     assert.equal(emulator.bootloader, true);
     assert.equal(emulator.stopped, 'USB bootloader');
   });
+});
+
+/** The ELF as UF2 blocks of 256 bytes, written by the format's description. */
+function asUf2(elf) {
+  const { segments } = readElf(elf);
+  const pages = segments.flatMap(({ address, bytes }) =>
+    Array.from({ length: Math.ceil(bytes.length / 256) }, (_, page) => [address + 256 * page, bytes.subarray(256 * page)]));
+  return Buffer.concat(pages.map(([address, bytes], number) => {
+    const block = Buffer.alloc(512);
+    const header = [0x0a324655, 0x9e5d5157, 0x2000, address, 256, number, pages.length, 0xe48bff56];
+    header.forEach((word, index) => block.writeUInt32LE(word, 4 * index));
+    block.set(bytes.subarray(0, 256), 32);
+    block.writeUInt32LE(0x0ab16f30, 508);
+    return block;
+  }));
+}
+
+test('a UF2 runs as its ELF does, and a wrong one is refused', async () => {
+  const elf = await buildProbe('serial');
+  const uf2 = elf.replace('.elf', '.uf2');
+  fs.writeFileSync(uf2, asUf2(elf));
+  const emulator = new Emulator(uf2);
+  emulator.run(0.005);
+  assert.equal(Buffer.from(emulator.uart.bytes).toString(), 'abcdefghijklmnopqrstuvwx');
+  fs.truncateSync(uf2, 512);
+  assert.throws(() => new Emulator(uf2), /block 0: count of blocks is \d+, expected 1/);
 });
 
 test('a timer near its wrap starts there', async () => {
