@@ -13,7 +13,7 @@ export class HardFault extends Error {
 }
 
 const kRomBytes = 0x4000;
-const kSramEnd = 0x20042000;
+const kSram = 0x20000000, kSramEnd = 0x20042000;
 const kDpramEnd = 0x50101000;
 export const kFlashBytes = 2 * 1024 * 1024; // the Pico's W25Q16JV
 
@@ -36,6 +36,7 @@ export class Chip extends RP2040 {
   readUint32(address) {
     address >>>= 0;
     if (address & 3) throw new HardFault(`32-bit read of 0x${address.toString(16)}, which is not aligned`);
+    if (address >= kSram && address < kSramEnd) return this.sramView.getUint32(address - kSram, true);
     checkMapped(this, address);
     if (this.flashHidden) checkFlashRead(this, address);
     return super.readUint32(address);
@@ -55,6 +56,7 @@ export class Chip extends RP2040 {
   writeUint32(address, value) {
     address >>>= 0;
     if (address & 3) throw new HardFault(`32-bit write of 0x${address.toString(16)}, which is not aligned`);
+    if (address >= kSram && address < kSramEnd) return this.sramView.setUint32(address - kSram, value, true);
     if (refusesWrite(this, address)) return;
     checkMapped(this, address);
     super.writeUint32(address, value);

@@ -79,6 +79,7 @@ export class Emulator {
   pressReset() {
     this.pendingReset = { reason: 0, scratch: new Uint32Array(8) };
     this.stopped = null;
+    this.bootloader = false;
     this.#reset();
   }
 
@@ -105,11 +106,12 @@ export class Emulator {
   }
 
   #execute(end) {
-    const { core, clock } = this.mcu;
+    const { mcu } = this;
+    const { core, clock } = mcu;
     this.interrupted = false;
     try {
       do {
-        clock.tick((core.executeInstruction() * 1e9) / this.mcu.clkSys);
+        clock.tick((core.executeInstruction() * 1e9) / mcu.clkSys);
       } while (!core.waiting && clock.nanos < end && !this.interrupted);
     } catch (error) {
       if (!(error instanceof HardFault)) throw error;
