@@ -45,19 +45,19 @@ class Application {
 
   /// Does what is to be done now; to be called again after each interrupt.
   void step() {
+    const std::uint64_t now_us = board_.clock().now_us();
     for_each_port([&](auto& port) {
-      port.receive([&](const wire::Frame& frame) { on_frame(port, frame); });
+      port.receive(now_us, [&](const wire::Frame& frame) { on_frame(port, frame); });
     });
     Window window;
     while (board_.sampler().take(window)) {
       on_window(window);
     }
-    const std::uint64_t now_us = board_.clock().now_us();
     if (now_us - last_status_us_ >= kStatusPeriodUs) {
       say_status();
     }
     board_.indicator().set(lights_.lit(now_us));
-    for_each_port([&](auto& port) { port.pump(); });
+    for_each_port([&](auto& port) { port.pump(now_us); });
     if (makes_progress(now_us)) {
       board_.watchdog().feed();
     }

@@ -41,7 +41,7 @@ class FrameRing {
     return size;
   }
 
-  [[nodiscard]] bool empty() const { return used_ == 0; }
+  [[nodiscard]] std::size_t free_bytes() const { return Bytes - used_; }
   /// Frames that had to give way, since the start.
   [[nodiscard]] std::uint32_t dropped() const { return dropped_; }
 

@@ -26,7 +26,7 @@ class Port {
   }
 
   /// Hands the link what it has room for. A frame that has begun to go out is not dropped any more.
-  void pump() {
+  void pump(std::uint64_t now_us) {
     while (true) {
       if (sent_ == size_) {
         sent_ = 0;
@@ -36,20 +36,23 @@ class Port {
         }
       }
       const std::size_t taken = link_.write({going_.data() + sent_, size_ - sent_});
-      sent_ += taken;
       if (taken == 0) {
         return;
       }
+      sent_ += taken;
+      last_sent_us_ = now_us;
     }
   }
 
-  /// Calls `on_frame(const wire::Frame&)` for each frame that has come; a few hundred bytes at
-  /// most, so that a flood does not keep the main loop.
+  /// Calls `on_frame(const wire::Frame&)` for each frame that has come. Takes no more than there is
+  /// room for the answers of, so that a flood waits at the host; but a host that has not read for a
+  /// while is heard all the same.
   template <class OnFrame>
-  void receive(const OnFrame& on_frame) {
-    constexpr int kPieces = 8;
+  void receive(std::uint64_t now_us, const OnFrame& on_frame) {
+    constexpr std::uint64_t kDeafUs = 100'000;
+    const bool deaf = now_us - last_sent_us_ > kDeafUs;
     std::array<std::uint8_t, 32> piece{};
-    for (int i = 0; i < kPieces; ++i) {
+    while (deaf || waiting_.free_bytes() > kWaitingBytes / 2) {
       const std::size_t size = link_.read(piece);
       if (size == 0) {
         return;
@@ -71,6 +74,7 @@ class Port {
   std::array<std::uint8_t, wire::kMaxFrameBytes> going_{};
   std::size_t size_ = 0;
   std::size_t sent_ = 0;
+  std::uint64_t last_sent_us_ = 0;
   wire::Decoder decoder_;
 };
 

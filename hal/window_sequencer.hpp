@@ -82,14 +82,26 @@ class WindowSequencer {
                                                    : window_->mode == EmitterMode::kLit;
   }
 
+  /// Whether the plan switches the emitters before this burst. A mode that does not still waits, so
+  /// that the windows of all modes have one length and one middle.
+  [[nodiscard]] bool is_to_settle() const {
+    return burst_ > 0 && kBursts[burst_].lit != kBursts[burst_ - 1].lit;
+  }
+
   void begin_burst() {
-    if (to_be_lit() == lit_) {
-      convert();
-      return;
+    const bool switches = to_be_lit() != lit_;
+    if (switches) {
+      lit_ = !lit_;
+      emitter_.set(lit_);
     }
-    lit_ = !lit_;
-    emitter_.set(lit_);
-    timer_.wake_after(kSettlingUs);
+    if (switches && burst_ == 0) {
+      window_->late_us += kSettlingUs;  // the mode has changed: this window begins with a wait
+    }
+    if (switches || is_to_settle()) {
+      timer_.wake_after(kSettlingUs);
+    } else {
+      convert();
+    }
   }
 
   void convert() {

@@ -41,9 +41,13 @@ class Sampler {
     Timer::acknowledge(Timer::kWindowAlarm);
     const std::uint64_t now_us = timer_.now_us();
     temperature_code_.store(adc_.last_code(), std::memory_order_relaxed);
-    sequencer_.on_window_due(due_us_, static_cast<std::uint32_t>(now_us - due_us_),
-                             mode_.load(std::memory_order_relaxed));
     const std::uint32_t period_us = period_us_.load(std::memory_order_relaxed);
+    const auto late_us = static_cast<std::uint32_t>(now_us - due_us_);
+    if (late_us <= period_us / kMostLateShare) {
+      sequencer_.on_window_due(due_us_, late_us, mode_.load(std::memory_order_relaxed));
+    } else {
+      sequencer_.on_window_missed();  // rather a gap than a sample out of step
+    }
     due_us_ += period_us;
     // An alarm in the past would come 71 minutes late: windows whose time has passed are lost.
     while (due_us_ < timer_.now_us() + kAlarmMarginUs) {
@@ -68,6 +72,7 @@ class Sampler {
 
  private:
   static constexpr std::uint64_t kAlarmMarginUs = 20;
+  static constexpr std::uint32_t kMostLateShare = 8;  ///< of a period; a power of two
 
   Timer& timer_;
   Adc& adc_;

@@ -115,15 +115,21 @@ export function cobsDecode(bytes) {
 export function encode(name, fields = {}) {
   const [type, layout] = kMessages[name];
   const size = Object.values(layout).reduce((sum, kind) => sum + kTypes[kind].size, 0);
-  const view = new DataView(new ArrayBuffer(1 + size + 4));
+  const view = new DataView(new ArrayBuffer(1 + size));
   view.setUint8(0, type);
   let at = 1;
   for (const [field, kind] of Object.entries(layout)) {
     if (field in fields) kTypes[kind].write(view, at, fields[field]);
     at += kTypes[kind].size;
   }
-  const bytes = new Uint8Array(view.buffer);
-  view.setUint32(at, crc32(bytes.subarray(0, at)), true);
+  return encodeBody(new Uint8Array(view.buffer, 0, at));
+}
+
+/** A frame of any type byte and payload. */
+export function encodeBody(body) {
+  const bytes = new Uint8Array(body.length + 4);
+  bytes.set(body);
+  new DataView(bytes.buffer).setUint32(body.length, crc32(body), true);
   return Uint8Array.from([...cobsEncode(bytes), 0]);
 }
 
