@@ -6,6 +6,20 @@ BUILD_PACKAGES=(
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
   catch2 librapidcheck-dev python3)
 
+# What the boards' firmware is built with, and its emulators.
+FIRMWARE_PACKAGES=(
+  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib nodejs npm qemu-system-arm)
+
+# install_emulator: the RP2040's, an npm package of the version that its lock file names.
+install_emulator() {
+  local lock=tests/firmware/package-lock.json installed=tests/firmware/node_modules/.package-lock.json
+  if [ "$installed" -nt "$lock" ]; then
+    return 0
+  fi
+  echo "Installing rp2040js by npm: needed to run the firmware without a board."
+  npm --prefix tests/firmware ci --no-audit --no-fund --silent
+}
+
 # install_missing WHY PACKAGE...
 install_missing() {
   local why=$1 package

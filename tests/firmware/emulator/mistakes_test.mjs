@@ -30,7 +30,7 @@ const kSilicon = {
   slow_vco: /VCO at 720000000 Hz/,
   aux_in_use: /AUXSRC of clk_sys changed while it is in use/,
   no_clk_peri: /UART0 sends while clk_peri is off/,
-  uart_off: /UART0 sends while it is not enabled/,
+  uart_off: /UART0 sends while it is not enabled|written into a full transmit FIFO/, // which then fills
   uart_function: /UART0 sends while GPIO0 has another function/,
   uart_pad: /UART0 sends while GPIO0's pad is disabled/,
   uart_overrun: /written into a full transmit FIFO/,

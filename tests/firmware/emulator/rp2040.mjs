@@ -14,6 +14,7 @@ import { readUf2 } from './uf2.mjs';
 
 const kFlash = 0x10000000, kSram = 0x20000000, kVectors = 0x10000100;
 const kUart0Interrupt = 20, kUart1Interrupt = 21;
+const kHadRun = 1 << 16; // of CHIP_RESET
 const kConversionNanos = 2000; // 96 cycles of 48 MHz
 
 export class Emulator {
@@ -77,7 +78,7 @@ export class Emulator {
 
   /** Pulls RUN low and lets go, like a reset button: SRAM and flash stay, scratch registers do not. */
   pressReset() {
-    this.pendingReset = { reason: 0, scratch: new Uint32Array(8) };
+    this.pendingReset = { reason: 0, scratch: new Uint32Array(8), chipReset: kHadRun };
     this.stopped = null;
     this.bootloader = false;
     this.#reset();
@@ -214,11 +215,12 @@ export class Emulator {
     this.pendingReset = null;
     this.resets++;
     if (kept === 'core') return this.#start();
-    const { flash, sram, clock } = this.mcu;
+    const { flash, sram, clock, peripherals } = this.mcu;
     this.pastNanos += clock.nanos - this.startNanos;
     this.#powerOn(0);
     this.mcu.flash.set(flash);
     this.mcu.sram.set(sram);
+    this.mcu.peripherals[0x40064].values[0x08] = kept.chipReset ?? peripherals[0x40064].values[0x08];
     this.mcu.peripherals[0x40058].reason = kept.reason;
     this.mcu.peripherals[0x40058].scratchData.set(kept.scratch);
     this.#start();

@@ -79,7 +79,7 @@ export class Uart extends BasePeripheral {
   }
 
   #transmit(byte) {
-    if (this.shifting === null) {
+    if (this.shifting === null && this.sends) {
       this.shifting = byte;
       this.transmitAlarm.schedule(this.#byteNanos());
     } else if (this.transmitFifo.length < this.#depth()) {
@@ -93,7 +93,7 @@ export class Uart extends BasePeripheral {
   #byteSent() {
     this.onByte(this.shifting);
     this.shifting = null;
-    if (this.transmitFifo.length === 0) return;
+    if (this.transmitFifo.length === 0 || !this.sends) return;
     this.shifting = this.transmitFifo.shift();
     this.transmitAlarm.schedule(this.#byteNanos());
     if (this.transmitFifo.length === this.#level(0)) this.#raise(kTransmit); // only on passing the level downwards
