@@ -8,7 +8,9 @@ BUILD_PACKAGES=(
 
 # What the boards' firmware is built with, and its emulators.
 FIRMWARE_PACKAGES=(
-  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib nodejs npm qemu-system-arm)
+  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
+# A Node.js from elsewhere comes with its own npm and does not go together with Debian's.
+command -v npm >/dev/null || FIRMWARE_PACKAGES+=(nodejs npm)
 
 # install_emulator: the RP2040's, an npm package of the version that its lock file names.
 install_emulator() {
