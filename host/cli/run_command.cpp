@@ -22,7 +22,7 @@ struct RunOptions {
   bool fast = false;
 };
 
-ExitStatus run(const RunOptions& options) {
+ExitStatus run(const RunOptions& options, const SourceUri& source) {
   const auto rig = load_rig(options.estimation.rig_path);
   if (!rig) {
     return log_failure(rig.error());
@@ -31,10 +31,10 @@ ExitStatus run(const RunOptions& options) {
   settings.duration_s = options.simulation.seconds;
   return estimate(options.estimation,
                   {.live = !options.fast,
-                   .paced = !options.fast,
+                   .paced = !options.fast && source.kind != SourceUri::Kind::kBoard,
                    .record_path = options.record_path,
-                   .input_path = path_of(options.uri)},
-                  *rig, open_source(options.uri, rig->rig, settings));
+                   .input_path = source.path},
+                  *rig, open_source(source, rig->rig, settings));
 }
 
 }  // namespace
@@ -42,7 +42,9 @@ ExitStatus run(const RunOptions& options) {
 void add_run_command(CLI::App& program, ExitStatus& status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = program.add_subcommand("run", "Turn samples into angles as they come");
-  command->add_option("SOURCE", options->uri, "sim: (a simulated rig) or file:PATH (a recording)")
+  command
+      ->add_option("SOURCE", options->uri,
+                   "sim: (a simulated rig), file:PATH (a recording) or serial:PATH (a board)")
       ->required();
   add_estimation_options(*command, options->estimation);
   command->add_option("--record", options->record_path, "Also write the samples as a recording")
@@ -55,14 +57,16 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "  penduline run sim: --rig rig.toml --case conical\n"
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv");
   command->final_callback([options, command, &status] {
-    if (options->uri != kSimulation && path_of(options->uri).empty()) {
+    const SourceUri source = parse_uri(options->uri);
+    if (source.kind == SourceUri::Kind::kUnknown) {
       throw CLI::ValidationError(
-          "SOURCE", fmt::format("found '{}', expected sim: or file:PATH", options->uri));
+          "SOURCE",
+          fmt::format("found '{}', expected sim:, file:PATH or serial:PATH", options->uri));
     }
-    if (options->uri != kSimulation) {
+    if (source.kind != SourceUri::Kind::kSimulation) {
       refuse_simulation_options(*command, "is for the source sim: only");
     }
-    status = run(*options);
+    status = run(*options, source);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hal/linux/wire_reader.hpp"
 #include "hal/replay/recording_reader.hpp"
 #include "hal/sim/sampled_rig.hpp"
 
@@ -45,6 +46,29 @@ class VoltageLogSource final : public Source {
 
  private:
   VoltageLogReader reader_;
+};
+
+/// A board's stream.
+class WireSource final : public Source {
+ public:
+  explicit WireSource(WireReader reader) : reader_(std::move(reader)) {}
+
+  [[nodiscard]] RecordingHeader header() const override {
+    const wire::Hello& hello = reader_.hello();
+    return {.acquisition = reader_.acquisition(),
+            .board = std::string(wire::characters_of(hello.board)),
+            .firmware = std::string(wire::characters_of(hello.firmware)),
+            .started = ""};
+  }
+  tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
+  [[nodiscard]] std::string place() const override { return reader_.place(); }
+  [[nodiscard]] double progress() const override { return 0; }
+  [[nodiscard]] std::vector<std::string> complaints() const override {
+    return reader_.complaints();
+  }
+
+ private:
+  WireReader reader_;
 };
 
 class SimulatedSource final : public Source {
@@ -100,18 +124,41 @@ tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(const std::string&
   return std::make_unique<VoltageLogSource>(std::move(*reader));
 }
 
-std::string path_of(std::string_view uri) {
-  constexpr std::string_view kFile = "file:";
-  return uri.starts_with(kFile) ? std::string(uri.substr(kFile.size())) : "";
+SourceUri parse_uri(std::string_view uri) {
+  using Kind = SourceUri::Kind;
+  if (uri == "sim:") {
+    return {.kind = Kind::kSimulation, .path = ""};
+  }
+  for (const auto& [prefix, kind] :
+       {std::pair{std::string_view("file:"), Kind::kRecording}, {"serial:", Kind::kBoard}}) {
+    if (uri.starts_with(prefix) && uri.size() > prefix.size()) {
+      return {.kind = kind, .path = std::string(uri.substr(prefix.size()))};
+    }
+  }
+  return {.kind = Kind::kUnknown, .path = ""};
 }
 
-tl::expected<std::unique_ptr<Source>, Error> open_source(std::string_view uri,
+tl::expected<std::unique_ptr<Source>, Error> open_board(const std::string& path) {
+  auto reader = WireReader::open(path);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  return std::make_unique<WireSource>(std::move(*reader));
+}
+
+tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
                                                          const Rig<double>& rig,
                                                          const SimulationSettings& settings) {
-  if (uri == kSimulation) {
-    return std::make_unique<SimulatedSource>(rig, settings);
+  switch (uri.kind) {
+    case SourceUri::Kind::kSimulation:
+      return std::make_unique<SimulatedSource>(rig, settings);
+    case SourceUri::Kind::kRecording:
+      return open_recording(uri.path);
+    case SourceUri::Kind::kBoard:
+      return open_board(uri.path);
+    default:
+      return failure("found no source, expected sim:, file:PATH or serial:PATH");
   }
-  return open_recording(path_of(uri));
 }
 
 }  // namespace penduline

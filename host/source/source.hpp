@@ -42,15 +42,21 @@ class Source {
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(
     const std::string& path, const VoltageLogLayout& layout);
 
-/// The URI of a simulated rig.
-inline constexpr std::string_view kSimulation = "sim:";
+/// A board's frames: its serial port, a pipe or file with its bytes, "-" for the standard input.
+[[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_board(const std::string& path);
 
-/// Opens `file:PATH` or `sim:`; the simulation runs `rig` with `settings`.
+/// What a source's URI says: `sim:`, `file:PATH` or `serial:PATH`.
+struct SourceUri {
+  enum class Kind { kUnknown, kSimulation, kRecording, kBoard };
+  Kind kind = Kind::kUnknown;
+  std::string path;  ///< of kRecording and kBoard
+};
+
+[[nodiscard]] SourceUri parse_uri(std::string_view uri);
+
+/// Opens a source; a simulation runs `rig` with `settings`.
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_source(
-    std::string_view uri, const Rig<double>& rig, const SimulationSettings& settings);
-
-/// The PATH of `file:PATH`; "" for other sources.
-[[nodiscard]] std::string path_of(std::string_view uri);
+    const SourceUri& uri, const Rig<double>& rig, const SimulationSettings& settings);
 
 /// What the recording of a simulation says before its first sample; without a start time, so that
 /// one seed gives one file.
