@@ -25,12 +25,14 @@ class Port {
     waiting_.push({frame.data(), wire::encode_frame(message, frame)});
   }
 
-  /// Hands the link what it has room for. A frame that has begun to go out is not dropped any more.
+  /// Hands the link what it has room for, each frame between two zeros of its own, so that one zero
+  /// that is damaged costs one frame. A frame that has begun to go out is not dropped any more.
   void pump(std::uint64_t now_us) {
     while (true) {
       if (sent_ == size_) {
         sent_ = 0;
-        size_ = waiting_.pop(going_);
+        const std::size_t frame = waiting_.pop(std::span(going_).subspan(1));
+        size_ = frame == 0 ? 0 : frame + 1;
         if (size_ == 0) {
           return;
         }
@@ -71,7 +73,7 @@ class Port {
 
   Link& link_;
   FrameRing<kWaitingBytes> waiting_;
-  std::array<std::uint8_t, wire::kMaxFrameBytes> going_{};
+  std::array<std::uint8_t, 1 + wire::kMaxFrameBytes> going_{};  ///< a zero, then the frame
   std::size_t size_ = 0;
   std::size_t sent_ = 0;
   std::uint64_t last_sent_us_ = 0;

@@ -138,7 +138,7 @@ struct KeptFrame {
           SetRate{.token = 3, .rate_millihz = 100'000},
           SetEmitter{.token = 4, .mode = EmitterMode::kLit},
           Identify{.token = 5, .seconds = 10},
-          Reboot{.token = 6, .target = RebootTarget::kBootloader},
+          wire::Reboot{.token = 6, .target = RebootTarget::kBootloader},
           BeginRig{.token = 7, .size_bytes = 596, .crc = 0xCBF43926},
           RigPart{.token = 8, .offset = 48, .count = 3, .bytes = {0x01, 0x00, 0xFF}},
           EndRig{.token = 9},
