@@ -6,11 +6,10 @@ BUILD_PACKAGES=(
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
   catch2 librapidcheck-dev python3)
 
-# What the boards' firmware is built with, and its emulators.
-FIRMWARE_PACKAGES=(
-  gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm)
+# What the Pico's firmware is built with and run in.
+PICO_PACKAGES=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 # A Node.js from elsewhere comes with its own npm and does not go together with Debian's.
-command -v npm >/dev/null || FIRMWARE_PACKAGES+=(nodejs npm)
+command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
 
 # install_emulator: the RP2040's, an npm package of the version that its lock file names.
 install_emulator() {
