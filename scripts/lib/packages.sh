@@ -6,8 +6,10 @@ BUILD_PACKAGES=(
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
   catch2 librapidcheck-dev python3)
 
-# What the Pico's firmware is built with and run in.
-PICO_PACKAGES=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
+# What the boards' firmware is built with.
+CROSS_PACKAGES=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
+# The same and what the Pico's emulator runs in.
+PICO_PACKAGES=("${CROSS_PACKAGES[@]}")
 # A Node.js from elsewhere comes with its own npm and does not go together with Debian's.
 command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
 
