@@ -12,8 +12,8 @@ from program import ROOT, ProgramTest
 RP2040_FAMILY = 0xE48BFF56
 RP2350_FAMILY = 0xE48BFF59
 
-# Stand-ins for the system's tools. They read and write $BOARDS: the list of volumes as lsblk prints it,
-# and a log of what was called.
+# Stand-ins for the system's tools. They read and write $BOARDS: the list of volumes as lsblk prints
+# it, and a log of what was called.
 TOOLS = {
     "lsblk": 'cat "$BOARDS/volumes"',
     "udisksctl": 'echo "udisksctl $*" >>"$BOARDS/log"; cp "$BOARDS/volumes_mounted" "$BOARDS/volumes"',
@@ -88,6 +88,13 @@ class FlashTest(ProgramTest):
         self.assertIn(f"Wrote {self.image} to {folder}.", self.flash("pico", self.image))
         self.assertEqual((folder / "image.uf2").read_bytes(), self.image.read_bytes())
 
+    def test_copies_where_no_serial_port_was_ever_seen(self):
+        (self.folder / "serial").rmdir()
+        folder = self.volume("RPI-RP2")
+        self.volumes(("/dev/sda1", "RPI-RP2", folder))
+        self.flash("pico", self.image)
+        self.assertTrue((folder / "image.uf2").exists())
+
     def test_finds_a_volume_with_a_blank_in_its_place(self):
         folder = self.volume("my boards")
         self.volumes(("/dev/sda1", "RPI-RP2", str(folder).replace(" ", "\\x20")))
@@ -105,8 +112,8 @@ class FlashTest(ProgramTest):
     def test_says_why_a_volume_could_not_be_mounted(self):
         self.volumes(("/dev/sda1", "RPI-RP2", ""))
         self.tool("udisksctl", 'echo "Error mounting: Not authorized" >&2; exit 1')
-        self.assertIn("error: could not mount /dev/sda1: Error mounting: Not authorized",
-                      self.flash("pico", self.image, status=1))
+        self.assertEqual("error: could not mount /dev/sda1: Error mounting: Not authorized\n",
+                         self.flash("pico", self.image, status=1))
 
     def test_sends_a_running_pico_to_its_bootloader(self):
         port, folder = self.running(), self.volume("RPI-RP2")
