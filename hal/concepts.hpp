@@ -133,7 +133,8 @@ concept FirmwareBoard = requires(Board& board) {
   { board.stack_free_bytes() } -> std::same_as<std::uint32_t>;
   /// Of the chip; wire::kUnknownTemperature where it has no thermometer.
   { board.temperature_cdeg() } -> std::same_as<std::int16_t>;
-  /// Waits for an interrupt, unless one came since the last call.
+  /// Waits for a window, bytes or room for bytes, unless they came since the last call; wakes at
+  /// least with each window.
   { board.sleep() } -> std::same_as<void>;
 };
 

@@ -31,8 +31,8 @@ inline constexpr std::size_t kConversionsPerWindow = kBursts.size() * kConversio
 /// Averaged for one lit or one dark reading of one channel.
 inline constexpr std::size_t kConversionsPerReading = kConversionsPerWindow / (2 * kChannels);
 
-/// What the sensors' light and current take to settle after the emitters are switched, with margin:
-/// a TCRT5000's phototransistor with 10 kOhm needs some 50 us.
+/// What the sensors' light and current take to settle after the emitters are switched, with margin
+/// (docs/hardware.md, "The phototransistor's load").
 inline constexpr std::uint32_t kSettlingUs = 150;
 
 /// How long a window lasts whose conversions take `conversion_ns` each.

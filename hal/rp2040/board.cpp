@@ -57,36 +57,36 @@ std::int16_t Board::temperature_cdeg() const {
   return static_cast<std::int16_t>(2700 - (uv - 706'000) * 100 / 1721);
 }
 
-/// An interrupt that comes just before the wait is noted, so that it is not slept through: with
-/// interrupts off `wfi` still wakes for one that is pending (ARMv6-M B1.5.19).
+/// An interrupt that comes just before the wait is not slept through: with interrupts off `wfi`
+/// still wakes for one that is pending (ARMv6-M B1.5.19). Most have nothing for the main loop.
 void Board::sleep() {
   asm volatile("cpsid i" ::: "memory");
-  if (!interrupted_) {
-    asm volatile("wfi" ::: "memory");
+  while (!work_) {
+    asm volatile("wfi\n cpsie i\n isb\n cpsid i" ::: "memory");
   }
-  interrupted_ = false;
+  work_ = false;
   asm volatile("cpsie i" ::: "memory");
 }
 
 void on_timer_0() {
-  board.note_interrupt();
   board.sampler().on_window_alarm();
 }
 void on_timer_1() {
-  board.note_interrupt();
   board.sampler().on_wake_up_alarm();
 }
 void on_dma_0() {
-  board.note_interrupt();
-  board.sampler().on_burst_carried();
+  if (board.sampler().on_burst_carried()) {
+    board.wake();
+  }
 }
 void on_usb() {
-  board.note_interrupt();
   board.usb().on_interrupt();
+  board.wake();
 }
 void on_uart_0() {
-  board.note_interrupt();
-  board.uart().on_interrupt();
+  if (board.uart().on_interrupt()) {
+    board.wake();
+  }
 }
 
 }  // namespace penduline::rp2040

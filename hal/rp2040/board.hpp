@@ -47,7 +47,8 @@ class Board {
   // For the interrupts.
   [[nodiscard]] UsbSerial& usb() { return usb_; }
   [[nodiscard]] Uart& uart() { return uart_; }
-  void note_interrupt() { interrupted_ = true; }
+  /// There is something for the main loop.
+  void wake() { work_ = true; }
 
  private:
   Timer timer_;
@@ -61,7 +62,7 @@ class Board {
   ResetControl resets_;
   FlashStore store_;
   FlashId id_;
-  volatile bool interrupted_ = false;
+  volatile bool work_ = false;
 };
 
 static_assert(FirmwareBoard<Board>);

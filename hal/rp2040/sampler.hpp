@@ -62,12 +62,15 @@ class Sampler {
     sequencer_.on_wake_up();
   }
 
-  void on_burst_carried() {
+  /// True where a window is finished.
+  bool on_burst_carried() {
     adc_.finish_burst();
     sequencer_.on_burst_done();
-    if (sequencer_.idle()) {
-      adc_.start_temperature();
+    if (!sequencer_.idle()) {
+      return false;
     }
+    adc_.start_temperature();
+    return true;
   }
 
  private:

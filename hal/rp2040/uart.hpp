@@ -77,7 +77,8 @@ class Uart {
   }
   [[nodiscard]] bool asks_for_bootloader() const { return false; }
 
-  void on_interrupt() {
+  /// True where bytes have come or there is room for others to go.
+  bool on_interrupt() {
     reg(uart::kInterruptClear) = kReceived | kReceiveTimeout | kSent;
     while ((rp2040::read(uart::kFlags) & kNothingReceived) == 0) {
       const auto byte = static_cast<std::uint8_t>(rp2040::read(uart::kData));
@@ -87,6 +88,7 @@ class Uart {
       }
     }
     send();
+    return !in_.empty() || out_.empty();
   }
 
  private:
