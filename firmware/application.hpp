@@ -161,9 +161,13 @@ class Application {
     port.send(message);
   }
 
-  /// Carries out a frame from the host; the reply goes to the port that it came from.
+  /// Carries out a frame from the host; the reply goes to the port that it came from. What is no
+  /// command has none: two boards on one line, or one that hears itself, would answer for ever.
   template <class SomePort>
   void on_frame(SomePort& port, const wire::Frame& frame) {
+    if (frame.type < wire::kFirstCommandType || frame.type > wire::kLastCommandType) {
+      return;
+    }
     if (frame.type == wire::Ping::kType) {
       if (const auto ping = wire::read_message<wire::Ping>(frame.payload)) {
         port.send(wire::Pong{.token = ping->token, .t_us = board_.clock().now_us()});
@@ -172,7 +176,8 @@ class Application {
     }
     wire::Reply reply{.command = frame.type,
                       .token = frame.payload.empty() ? std::uint8_t{0} : frame.payload.front(),
-                      .result = wire::Result::kUnknownCommand};
+                      .result = frame.type == wire::Ping::kType ? wire::Result::kWrongLength
+                                                                : wire::Result::kUnknownCommand};
     std::apply(
         [&](const auto&... command) { (try_command(port, frame, command, reply.result), ...); },
         Commands{});

@@ -13,6 +13,10 @@
 
 namespace penduline::wire {
 
+/// The type bytes of commands, those to come included: a board answers these and no others.
+inline constexpr std::uint8_t kFirstCommandType = 0x41;
+inline constexpr std::uint8_t kLastCommandType = 0x7F;
+
 /// Sample rates that `SetRate` may ask for.
 inline constexpr std::uint32_t kLeastRateMillihz = 1'000;
 inline constexpr std::uint32_t kMostRateMillihz = 1'000'000;
