@@ -3,10 +3,10 @@
 #include "hal/rp2040/board.hpp"
 
 #include "common/wire/device_messages.hpp"
+#include "hal/cortex_m/stack.hpp"
 #include "hal/program.hpp"
 #include "hal/rp2040/clocks.hpp"
 #include "hal/rp2040/interrupts.hpp"
-#include "hal/rp2040/stack.hpp"
 
 namespace penduline::rp2040 {
 namespace {
@@ -44,7 +44,7 @@ CrashRecord& Board::crash_record() {
 }
 
 std::uint32_t Board::stack_free_bytes() const {
-  return unused_stack_bytes();
+  return cortex_m::unused_stack_bytes();
 }
 
 /// 27 degC - (V - 0.706 V) / 1.721 mV/K (data sheet 4.9.5), in hundredths and integers.

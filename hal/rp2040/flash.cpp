@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hal/cortex_m/interrupt_lock.hpp"
 #include "hal/rp2040/boot_rom.hpp"
-#include "hal/rp2040/interrupt_lock.hpp"
 #include "hal/rp2040/registers.hpp"
 
 // Code that runs while the flash cannot be read; the linker script puts it into RAM.
@@ -105,7 +105,7 @@ bool FlashStore::replace(std::span<const std::uint8_t> block) {
   }
   const FlashFunctions flash;
   {
-    const InterruptLock lock;
+    const cortex_m::InterruptLock lock;
     erase_sector(flash);
   }
   for (std::uint32_t at = 0; at < block.size(); at += kPageBytes) {
@@ -113,7 +113,7 @@ bool FlashStore::replace(std::span<const std::uint8_t> block) {
     page.fill(0xff);
     const auto part = block.subspan(at, std::min<std::size_t>(kPageBytes, block.size() - at));
     std::copy(part.begin(), part.end(), page.begin());
-    const InterruptLock lock;
+    const cortex_m::InterruptLock lock;
     program_page(flash, kStoreOffset + at, page);
   }
   return std::equal(block.begin(), block.end(), contents().begin());
@@ -121,7 +121,7 @@ bool FlashStore::replace(std::span<const std::uint8_t> block) {
 
 void FlashId::start() {
   const FlashFunctions flash;
-  const InterruptLock lock;
+  const cortex_m::InterruptLock lock;
   if (!ask_unique_id(flash, id_)) {
     id_.fill(0);
   }

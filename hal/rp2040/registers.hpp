@@ -5,17 +5,13 @@
 
 #include <cstdint>
 
+#include "hal/cortex_m/registers.hpp"
+
 namespace penduline::rp2040 {
 
-/// A register by its address.
-[[nodiscard]] inline volatile std::uint32_t& reg(std::uint32_t address) {
-  return *reinterpret_cast<volatile std::uint32_t*>(address);  // NOLINT: this is what an address is
-}
-
-/// Reads a register for what the reading does.
-inline std::uint32_t read(std::uint32_t address) {
-  return reg(address);
-}
+using cortex_m::read;
+using cortex_m::reg;
+using cortex_m::wait_for;
 
 // Atomic access by alias (2.1.2); not for SIO, the Cortex-M0+ itself and the USB controller's
 // memory.
@@ -24,17 +20,6 @@ inline void set_bits(std::uint32_t address, std::uint32_t bits) {
 }
 inline void clear_bits(std::uint32_t address, std::uint32_t bits) {
   reg(address + 0x3000) = bits;
-}
-
-/// Waits until a register shows some of the bits; false after so many looks that it never will.
-[[nodiscard]] inline bool wait_for(std::uint32_t address, std::uint32_t bits,
-                                   std::uint32_t looks = 1'000'000) {
-  while (looks-- > 0) {
-    if ((read(address) & bits) != 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 namespace resets {  // 2.14

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace penduline::rp2040 {
+namespace penduline::cortex_m {
 
 class InterruptLock {
  public:
@@ -17,4 +17,4 @@ class InterruptLock {
   std::uint32_t before_;
 };
 
-}  // namespace penduline::rp2040
+}  // namespace penduline::cortex_m

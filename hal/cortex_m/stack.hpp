@@ -8,7 +8,7 @@ extern "C" {
 extern std::uint32_t stack_bottom;  // NOLINT: from the linker script
 }
 
-namespace penduline::rp2040 {
+namespace penduline::cortex_m {
 
 inline constexpr std::uint32_t kStackPaint = 0xa5a5a5a5;
 
@@ -30,4 +30,4 @@ inline void paint_stack() {
   return static_cast<std::uint32_t>(word - &stack_bottom) * sizeof(std::uint32_t);
 }
 
-}  // namespace penduline::rp2040
+}  // namespace penduline::cortex_m
