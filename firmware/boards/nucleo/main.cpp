@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Penduline on an STM32 Nucleo-F446RE.
+#include "firmware/application.hpp"
+#include "firmware/run.hpp"
+#include "hal/program.hpp"
+#include "hal/stm32f4/board.hpp"
+
+namespace penduline {
+namespace {
+
+using stm32f4::nucleo;
+
+/// Everything that it needs is in it; nothing is allocated later.
+Application<stm32f4::Board> application(nucleo());
+
+}  // namespace
+
+void run_program() {
+  nucleo().start();
+  run(application);
+}
+
+void on_fault(std::uint32_t pc) {
+  nucleo().crash_record().note_fault(pc);
+  nucleo().resets().restart();
+  __builtin_unreachable();
+}
+
+void on_failed_assertion(const char* file, std::uint16_t line) {
+  nucleo().crash_record().note_assertion(file, line);
+  nucleo().resets().restart();
+  __builtin_unreachable();
+}
+
+}  // namespace penduline
