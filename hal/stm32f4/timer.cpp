@@ -10,15 +10,17 @@ namespace penduline::stm32f4 {
 namespace {
 
 constexpr std::uint32_t kLongestUs = 50'000;  // 24 bits are 99 ms
-constexpr std::uint32_t kShortestUs = 10;
+// Of an interval, and of what is left of one that is still to be replanned.
+constexpr std::uint32_t kFewestTicks = 1000;
+constexpr std::uint32_t kCloseTicks = 200;
 
 [[nodiscard]] bool interval_ended() {
   return (read(cortex::kInterruptCtrl) & cortex::kSysTickPending) != 0;
 }
 
-/// Ticks left of the interval. The counter shows 0 for the one tick between its end, or its
-/// restart, and the next beginning; QEMU's may show it longer, at an end that it is late to tell.
-[[nodiscard]] std::uint32_t ticks_left() {
+/// What the counter shows. On the chip it is 0 for one tick between an interval's end, or the
+/// counter's restart, and its next beginning. QEMU's shows 0 until its main loop has seen to it.
+[[nodiscard]] std::uint32_t counter() {
   constexpr int kLooks = 4;
   std::uint32_t left = 0;
   for (int look = 0; look < kLooks && left == 0; ++look) {
@@ -36,7 +38,7 @@ void pend_sampling() {
 void Timer::start(std::uint32_t processor_hz) {
   constexpr std::uint32_t kOnWithInterruptFromProcessor = 7;
   ticks_per_us_ = processor_hz / 1'000'000;
-  interval_ticks_ = kLongestUs * ticks_per_us_;
+  begin_interval(kLongestUs * ticks_per_us_);
   reg(cortex::kSysTickReload) = interval_ticks_ - 1;
   reg(cortex::kSysTickValue) = 0;
   reg(cortex::kSysTickCtrl) = kOnWithInterruptFromProcessor;
@@ -50,9 +52,19 @@ std::uint64_t Timer::now_us() const {
 std::uint64_t Timer::now_us_locked() const {
   const std::uint32_t left = ticks_left();
   if (interval_ended()) {  // and the next, as long, has begun: before or after `left` was read
-    return us_after(2 * interval_ticks_ - ticks_left());
+    const std::uint32_t left_of_next = counter();
+    return us_after(interval_ticks_ + (left_of_next == 0 ? 0 : interval_ticks_ - left_of_next));
   }
   return us_after(interval_ticks_ - left);
+}
+
+/// Of the interval that runs. While the counter shows 0, time stands.
+std::uint32_t Timer::ticks_left() const {
+  const std::uint32_t left = counter();
+  if (left != 0) {
+    last_left_ = left;
+  }
+  return last_left_;
 }
 
 void Timer::wake_after(std::uint32_t delay_us) {
@@ -82,6 +94,7 @@ bool Timer::take(std::uint64_t& alarm) {
 void Timer::on_interval() {
   const cortex_m::InterruptLock lock;
   add(interval_ticks_);
+  begin_interval(interval_ticks_);
   plan();
 }
 
@@ -93,7 +106,6 @@ void Timer::resume() {
 /// Lets the interval end where the next alarm is due, by beginning a new one now. Alarms whose time
 /// has come are handed to PendSV.
 void Timer::plan() {
-  constexpr std::uint32_t kCloseTicks = 200;  // more than what follows takes
   // Between reading the counter and its restart, by the processor's data sheet.
   constexpr std::uint32_t kRestartTicks = 2;
   const std::uint32_t left = ticks_left();
@@ -110,9 +122,8 @@ void Timer::plan() {
       pend_sampling();
     }
   }
-  const std::uint32_t ticks =
-      std::max(static_cast<std::uint32_t>(wait_us) * ticks_per_us_ - passed % ticks_per_us_,
-               kShortestUs * ticks_per_us_);
+  const std::uint32_t ticks = std::max(
+      static_cast<std::uint32_t>(wait_us) * ticks_per_us_ - passed % ticks_per_us_, kFewestTicks);
   reg(cortex::kSysTickReload) = ticks - 1;
   const std::uint32_t still_left = read(cortex::kSysTickValue);
   reg(cortex::kSysTickValue) = 0;
@@ -122,7 +133,7 @@ void Timer::plan() {
   } else {
     add(interval_ticks_ - still_left + kRestartTicks);
   }
-  interval_ticks_ = ticks;
+  begin_interval(ticks);
 }
 
 }  // namespace penduline::stm32f4

@@ -36,6 +36,7 @@ class Timer {
     if ((reg(cortex::kInterruptCtrl) & cortex::kSysTickPending) != 0) {
       reg(cortex::kInterruptCtrl) = cortex::kSysTickClear;
       add(interval_ticks_);
+      begin_interval(interval_ticks_);
     }
   }
   /// After `follow`: sees to the alarms again.
@@ -49,6 +50,11 @@ class Timer {
     past_us_ += ticks / ticks_per_us_;
     past_ticks_ = ticks % ticks_per_us_;
   }
+  [[gnu::always_inline]] void begin_interval(std::uint32_t ticks) {
+    interval_ticks_ = ticks;
+    last_left_ = ticks;
+  }
+  [[nodiscard]] std::uint32_t ticks_left() const;
   [[nodiscard]] std::uint64_t us_after(std::uint32_t ticks) const {
     return past_us_ + (past_ticks_ + ticks) / ticks_per_us_;
   }
@@ -58,9 +64,10 @@ class Timer {
   void plan();
 
   std::uint32_t ticks_per_us_ = 1;
-  std::uint32_t interval_ticks_ = 0;  ///< length of the one that runs
-  std::uint64_t past_us_ = 0;         ///< at its beginning
-  std::uint32_t past_ticks_ = 0;      ///< and these, less than a microsecond
+  std::uint32_t interval_ticks_ = 0;     ///< length of the one that runs
+  mutable std::uint32_t last_left_ = 0;  ///< of it, when it was last looked at
+  std::uint64_t past_us_ = 0;            ///< at its beginning
+  std::uint32_t past_ticks_ = 0;         ///< and these, less than a microsecond
   std::uint64_t window_us_ = kNever;
   std::uint64_t wake_up_us_ = kNever;
 };
