@@ -9,9 +9,9 @@ import { Emulator } from '../emulator/rp2040.mjs';
 import { FrameSplitter, encode } from '../emulator/wire.mjs';
 
 export const root = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../../..');
+const build = process.env.PICO_BUILD ?? path.join(root, 'build/pico');
 /** What a user copies to the board. */
-export const image = path.join(root, 'build/pico/penduline-pico.uf2');
-const elf = path.join(root, 'build/pico/penduline-pico.elf');
+export const image = path.join(build, 'penduline-pico.uf2');
 
 export const kEmitterPin = 15, kLightPin = 25, kTemperatureChannel = 4;
 export const kTopCode = 4095, kFullScale = 65535;
@@ -67,12 +67,6 @@ export class Board {
   /** A Status asked for now. */
   status() {
     return this.command('AskStatus').messages.find((message) => message.name === 'Status');
-  }
-
-  /** The address of a symbol of the program. */
-  symbol(name) {
-    this.symbols ??= new Emulator(elf).symbols;
-    return this.symbols.get(name);
   }
 
   /** Fails on anything that silicon, the USB host or the emulator has to say against the firmware. */

@@ -30,6 +30,8 @@ test('nobody reads for a minute: the oldest whole frames go, are counted and tol
   const gaps = all.slice(1).map((sample, i) => sample.seq - all[i].seq - 1n).filter((gap) => gap > 0n);
   assert.equal(gaps.length, 1, `${gaps}`);
   assert.ok(gaps[0] > 1000n, `${gaps}`);
+  const gapAt = all.findIndex((sample, i) => i > 0 && sample.seq !== all[i - 1].seq + 1n);
+  assert.ok(gapAt - before.length < 20, `the newest are kept, not ${gapAt - before.length} of the oldest`);
   assert.ok(BigInt(status.dropped_frames) >= gaps[0], `${status.dropped_frames} frames, ${gaps[0]} samples`);
   assert.ok(status.dropped_frames <= Number(gaps[0]) + 70, 'each frame that is missing is counted once');
   assert.equal(status.overruns, 0, 'sampling went on');
