@@ -31,28 +31,43 @@ inline constexpr std::size_t kHeadBytes =
     sizeof(kMark) + sizeof(std::uint16_t) + sizeof(std::uint32_t);
 }  // namespace rig_store
 
-/// Reads the rig; whatever is not exactly one is damaged, whatever was erased is empty.
-[[nodiscard]] inline StoredRig read_rig(std::span<const std::uint8_t> contents) {
-  if (contents.size() < rig_store::kHeadBytes) {
-    return {.state = wire::StoreState::kDamaged, .rig = {}};
+namespace rig_store {
+
+/// Whether nothing was ever written there.
+[[nodiscard]] inline bool is_erased(std::span<const std::uint8_t> contents) {
+  return contents.size() >= kHeadBytes &&
+         std::ranges::all_of(contents.first(kHeadBytes),
+                             [](std::uint8_t byte) { return byte == kErased; });
+}
+
+/// The rig, if that is what the contents are.
+[[nodiscard]] inline std::optional<Rig<float>> rig_in(std::span<const std::uint8_t> contents) {
+  if (contents.size() < kHeadBytes) {
+    return std::nullopt;
   }
-  const auto head = contents.first(rig_store::kHeadBytes);
-  if (std::ranges::all_of(head, [](std::uint8_t byte) { return byte == rig_store::kErased; })) {
-    return {};
-  }
-  wire::ByteReader reader(head);
+  wire::ByteReader reader(contents.first(kHeadBytes));
   const auto mark = reader.take<std::uint32_t>();
   const auto size = reader.take<std::uint16_t>();
   const auto crc = reader.take<std::uint32_t>();
-  if (mark == rig_store::kMark && size <= contents.size() - head.size()) {
-    const auto image = contents.subspan(head.size(), size);
-    if (wire::crc32(image) == crc) {
-      StoredRig stored{.state = wire::StoreState::kValid, .rig = wire::decode_rig(image)};
-      stored.state = stored.rig ? wire::StoreState::kValid : wire::StoreState::kDamaged;
-      return stored;
-    }
+  if (mark != kMark || size > contents.size() - kHeadBytes ||
+      wire::crc32(contents.subspan(kHeadBytes, size)) != crc) {
+    return std::nullopt;
   }
-  return {.state = wire::StoreState::kDamaged, .rig = {}};
+  return wire::decode_rig(contents.subspan(kHeadBytes, size));
+}
+
+}  // namespace rig_store
+
+/// Reads the rig; whatever is not exactly one is damaged, whatever was erased is empty. A rig is
+/// large for a board's stack: it is made where the caller has it.
+[[nodiscard]] inline StoredRig read_rig(std::span<const std::uint8_t> contents) {
+  StoredRig stored{
+      .state = rig_store::is_erased(contents) ? wire::StoreState::kEmpty : wire::StoreState::kValid,
+      .rig = rig_store::rig_in(contents)};
+  if (stored.state == wire::StoreState::kValid && !stored.rig) {
+    stored.state = wire::StoreState::kDamaged;
+  }
+  return stored;
 }
 
 /// Stores a rig's image; false where the store did not take it.

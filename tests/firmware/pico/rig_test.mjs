@@ -156,6 +156,13 @@ test('an upload is refused by name, and the stored rig stays', () => {
   assert.ok(only('Angles', board.run(1)).length > 18);
 });
 
+test('uploading, storing and solving leave an eighth of the stack', () => {
+  const board = boardWithRig();
+  board.run(2);
+  const { stack_free_bytes } = board.status();
+  assert.ok(stack_free_bytes >= 512, `${stack_free_bytes} bytes were never used`);
+});
+
 test('a piece that comes twice changes nothing', () => {
   const board = new Board({ pins: swing.pins() });
   board.run(0.2);
