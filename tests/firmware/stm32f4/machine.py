@@ -36,8 +36,9 @@ def counts(code):
 
 
 class Machine:
-    """A board in QEMU. Its time goes by the instructions it has run, 8 ns each, and waits for the
-    host's clock while it sleeps; so a busy host slows it down, but makes it miss nothing."""
+    """A board in QEMU. While it works its time goes by the instructions it runs, 8 ns each, so that
+    a busy host slows it down; while it sleeps it follows the host's clock, and wakes as late as
+    the host does: by some milliseconds, which cost no sample at 50 Hz and below."""
 
     def __init__(self, store=None):
         self.folder = tempfile.TemporaryDirectory(prefix="penduline-")
