@@ -4,14 +4,13 @@ import os
 import re
 import select
 import signal
-import struct
 import subprocess
 import termios
 import time
 import unittest
 
 from program import PROGRAM, RIGS, ProgramTest
-from wire import (ASK_HELLO, ERASE_RIG, HELLO, REBOOT, REPLY, SAMPLE, STATUS, frame, frames)
+import wire
 
 BOARD = PROGRAM.parent / "penduline-sim-board"
 PAPER = ["--rig", RIGS / "paper.toml"]
@@ -32,17 +31,24 @@ def stream_of(seconds, *arguments, commands=b""):
                      commands=commands)[0]
 
 
+def messages(stream):
+    return wire.Splitter().messages(stream)
+
+
+def only(name, found):
+    return [message for message in found if type(message).__name__ == name]
+
+
 class StreamTest(ProgramTest):
     def test_a_minute_of_samples_comes_whole_and_at_its_rate(self):
-        found = frames(stream_of(60))
-        kinds = [kind for kind, _ in found]
-        self.assertEqual(kinds[:2], [HELLO, STATUS])
-        self.assertEqual(kinds.count(STATUS), 61)
-        samples = [struct.unpack("<QQHHHHB", payload) for kind, payload in found if kind == SAMPLE]
+        found = messages(stream_of(60))
+        self.assertEqual([type(message).__name__ for message in found[:2]], ["Hello", "Status"])
+        self.assertEqual(len(only("Status", found)), 61)
+        samples = only("Sample", found)
         self.assertEqual(len(samples), 1199)
-        for number, (seq, t_us, *_) in enumerate(samples):
-            self.assertEqual((seq, t_us), (number, (number + 1) * 50000 + 278))
-        self.assertEqual({flags for *_, flags in samples[1:]}, {0})
+        for number, sample in enumerate(samples):
+            self.assertEqual((sample.seq, sample.t_us), (number, (number + 1) * 50000 + 278))
+        self.assertEqual({sample.flags for sample in samples[1:]}, {0})
 
     def test_one_seed_gives_one_stream(self):
         first = stream_of(5, "--seed", 7)
@@ -50,30 +56,27 @@ class StreamTest(ProgramTest):
         self.assertNotEqual(stream_of(5, "--seed", 8), first)
 
     def test_emitters_add_to_the_rooms_light(self):
-        found = frames(stream_of(2, "--theta-deg", 0, "--noise", 0, "--ambient", 0.25))
-        x_on, x_off = next(struct.unpack("<HH", payload[16:20])
-                           for kind, payload in found if kind == SAMPLE)
-        self.assertAlmostEqual(x_off / 65535 * 3.3, 0.25, delta=3.3 / 4095)
-        self.assertGreater(x_on, x_off + 1000)
+        found = messages(stream_of(2, "--theta-deg", 0, "--noise", 0, "--ambient", 0.25))
+        sample = only("Sample", found)[0]
+        self.assertAlmostEqual(sample.x_off / 65535 * 3.3, 0.25, delta=3.3 / 4095)
+        self.assertGreater(sample.x_on, sample.x_off + 1000)
 
     def test_commands_come_on_stdin_and_a_restart_is_told(self):
-        commands = frame(ASK_HELLO, b"\x05") + frame(REBOOT, b"\x06\x00")
-        found = frames(stream_of(3, commands=commands))
-        self.assertIn((REPLY, bytes([ASK_HELLO, 5, 0])), found)
-        self.assertIn((REPLY, bytes([REBOOT, 6, 0])), found)
-        boots = {payload[41:45] for kind, payload in found if kind == HELLO}
-        self.assertEqual(len(boots), 2)
-        last_status = [payload for kind, payload in found if kind == STATUS][-1]
-        self.assertEqual((last_status[36], last_status[37]), (3, 1))  # by software, once
+        commands = wire.encode("AskHello", 5) + wire.encode("Reboot", 6, 0)
+        found = messages(stream_of(3, commands=commands))
+        self.assertEqual([(reply.token, reply.result) for reply in only("Reply", found)],
+                         [(5, 0), (6, 0)])
+        self.assertEqual(len({hello.boot_id for hello in only("Hello", found)}), 2)
+        last = only("Status", found)[-1]
+        self.assertEqual((last.reset_cause, last.resets), (3, 1))  # by software, once
 
     def test_the_store_is_a_file(self):
         store = self.folder / "store"
-        stream_of(1, "--store", store, commands=frame(ERASE_RIG, b"\x01"))
+        stream_of(1, "--store", store, commands=wire.encode("EraseRig", 1))
         self.assertEqual(store.read_bytes(), b"\xff" * 4096)
         store.write_bytes(b"not a rig")
-        status = next(payload for kind, payload in frames(stream_of(1, "--store", store))
-                      if kind == STATUS)
-        self.assertEqual(status[61], 2)  # damaged
+        status = only("Status", messages(stream_of(1, "--store", store)))[0]
+        self.assertEqual(status.store, wire.STORE_DAMAGED)
 
     def test_a_reader_that_goes_ends_it(self):
         process = subprocess.Popen([BOARD, *PAPER, "--link", "stdout", "--fast"],
@@ -99,28 +102,28 @@ class PseudoTerminalTest(ProgramTest):
         self.process.stderr.close()
 
     def read_until(self, port, enough):
-        """Reads until `enough` says so of the frames that came, ten seconds at most."""
+        """Reads until `enough` says so of the messages that came, ten seconds at most."""
         stream = b""
         until = time.monotonic() + 10
-        while not enough(frames(stream)):
+        while not enough(messages(stream)):
             self.assertLess(time.monotonic(), until, "it takes too long")
             if select.select([port], [], [], 1)[0]:
                 stream += os.read(port, 4096)
-        return frames(stream)
+        return messages(stream)
 
     def test_it_streams_in_real_time_and_answers(self):
         port = os.open(self.path, os.O_RDWR | os.O_NOCTTY)
         self.addCleanup(os.close, port)
-        os.write(port, frame(ASK_HELLO, b"\x09"))
+        os.write(port, wire.encode("AskHello", 9))
         start = time.monotonic()
-        found = self.read_until(port, lambda found: sum(k == SAMPLE for k, _ in found) > 20)
+        found = self.read_until(port, lambda found: len(only("Sample", found)) > 20)
         self.assertGreater(time.monotonic() - start, 0.7)
-        self.assertIn((REPLY, bytes([ASK_HELLO, 9, 0])), found)
+        self.assertEqual([reply.token for reply in only("Reply", found)], [9])
 
     def test_it_may_be_opened_again(self):
         for _ in range(2):
             port = os.open(self.path, os.O_RDWR | os.O_NOCTTY)
-            self.read_until(port, lambda found: any(kind == SAMPLE for kind, _ in found))
+            self.read_until(port, lambda found: only("Sample", found))
             os.close(port)
             time.sleep(0.1)
 

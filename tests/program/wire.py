@@ -1,51 +1,99 @@
 # SPDX-License-Identifier: Apache-2.0
-# Frames of docs/protocol.md, written a second time, for the tests in Python.
+# The wire protocol in Python (docs/protocol.md), written apart from common/wire.
 import struct
 import zlib
+from collections import namedtuple
 
-# Payloads by type byte: the whole of short ones, the beginning of long ones.
-HELLO, SAMPLE, STATUS, REPLY = 0x01, 0x02, 0x03, 0x06
-ASK_HELLO, ASK_STATUS, REBOOT, ERASE_RIG = 0x42, 0x43, 0x47, 0x4B
+# Name, type byte, struct's format (little-endian) and fields of each message from the board.
+FROM_BOARD = (
+    ("Hello", 0x01, "B16s16s8sIIIHIBBHH",
+     "protocol board firmware unique_id boot_id tick_hz rate_millihz full_scale_counts "
+     "reference_uv sensor_count emitter_mode window_us conversions"),
+    ("Sample", 0x02, "QQHHHHB", "seq t_us x_on x_off y_on y_off flags"),
+    ("Status", 0x03, "QQIIIHHhHBHIH16sBIB",
+     "t_us samples dropped_frames bad_frames overruns late_max_us load_permille temperature_cdeg "
+     "stack_free_bytes reset_cause resets fault_pc fault_line fault_file store rate_millihz "
+     "emitter_mode"),
+    ("Angles", 0x04, "QqfffI", "seq t_us theta1_rad theta2_rad residual_m flags"),
+    ("Pong", 0x05, "IQ", "token t_us"),
+    ("Reply", 0x06, "BBB", "command token result"),
+)
+TYPES = {kind: (namedtuple(name, fields), struct.Struct("<" + layout))
+         for name, kind, layout, fields in FROM_BOARD}
+
+# Type byte and format of each command.
+COMMANDS = {
+    "Ping": (0x41, "I"), "AskHello": (0x42, "B"), "AskStatus": (0x43, "B"), "SetRate": (0x44, "BI"),
+    "SetEmitter": (0x45, "BB"), "Identify": (0x46, "BB"), "Reboot": (0x47, "BB"),
+    "BeginRig": (0x48, "BHI"), "RigPart": (0x49, "BHB48s"), "EndRig": (0x4A, "B"),
+    "EraseRig": (0x4B, "B"),
+}
+RESULTS = ("done unknown_command wrong_length out_of_range not_supported busy store_failed "
+           "no_upload incomplete damaged invalid_rig").split()
 
 
-def decode_cobs(block):
-    """The bytes in a block without its zero."""
-    out = bytearray()
-    at = 0
-    while at < len(block):
-        code = block[at]
-        if code == 0 or at + code > len(block):
-            raise ValueError(f"damaged block {block.hex()}")
-        out += block[at + 1:at + code]
-        at += code
-        if code != 0xFF and at < len(block):
+def cobs_encode(data):
+    """COBS of up to 254 bytes, which are one block."""
+    return b"".join(bytes([len(run) + 1]) + run for run in data.split(b"\0"))
+
+
+def cobs_decode(data):
+    """What was encoded; None where it cannot be."""
+    out, at = bytearray(), 0
+    while at < len(data):
+        run = data[at + 1:at + data[at]]
+        if len(run) != data[at] - 1:
+            return None
+        out += run
+        at += data[at]
+        if at < len(data):
             out.append(0)
     return bytes(out)
 
 
-def encode_cobs(data):
-    """The block of up to 254 bytes."""
-    block = bytearray()
-    for part in data.split(b"\0"):
-        block.append(len(part) + 1)
-        block += part
-    return bytes(block)
+def encode_body(body):
+    """The frame of a type byte and a payload."""
+    return cobs_encode(body + struct.pack("<I", zlib.crc32(body))) + b"\0"
 
 
-def frame(kind, payload):
-    """A whole frame, with a zero on either side."""
-    body = bytes([kind]) + payload
-    return b"\0" + encode_cobs(body + struct.pack("<I", zlib.crc32(body))) + b"\0"
+def encode(command, *fields):
+    """The frame of a command."""
+    kind, layout = COMMANDS[command]
+    return encode_body(bytes([kind]) + struct.pack("<" + layout, *fields))
 
 
-def frames(stream):
-    """All frames in a stream as (type, payload); what follows the last zero is left out."""
-    found = []
-    for block in stream.split(b"\0")[:-1]:
-        if block:
-            data = decode_cobs(block)
-            body, crc = data[:-4], struct.unpack("<I", data[-4:])[0]
-            if zlib.crc32(body) != crc:
-                raise ValueError(f"damaged frame {block.hex()}")
-            found.append((body[0], body[1:]))
-    return found
+class Splitter:
+    """Cuts a stream into messages; what is not one is kept in `damaged`."""
+
+    def __init__(self):
+        self.rest = b""
+        self.damaged = []
+
+    def messages(self, data):
+        *frames, self.rest = (self.rest + data).split(b"\0")
+        return [message for frame in frames if frame and (message := self.decode(frame))]
+
+    def decode(self, frame):
+        whole = cobs_decode(frame)
+        if whole is None or len(whole) < 5 or whole[-4:] != struct.pack("<I", zlib.crc32(whole[:-4])):
+            self.damaged.append(frame)
+            return None
+        record, layout = TYPES[whole[0]]
+        return record._make(layout.unpack(whole[1:-4]))
+
+
+# What `Status` says of the store, and the store's head (firmware/rig_store.hpp).
+STORE_VALID, STORE_DAMAGED = 1, 2
+
+
+def rig_image(gap_at_zero_m, slope_m_per_v, offset_m, arm_m):
+    """The image of a rig with two linear sensors, `arm_m` from the pivot along X and Y."""
+    image = struct.pack("<BffffffBB", 1, 0.3, 0.1, 9.8, 0.01, offset_m, 0.12, 0, 2)
+    for position in ((arm_m, 0, 0), (0, arm_m, 0)):
+        image += struct.pack("<ffffffBff", *position, 0, 0.1, 0, 0, gap_at_zero_m, slope_m_per_v)
+    return image
+
+
+def stored(image):
+    """The bytes of a store that holds the image."""
+    return b"RIG1" + struct.pack("<HI", len(image), zlib.crc32(image)) + image

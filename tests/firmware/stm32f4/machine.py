@@ -6,13 +6,14 @@ import queue
 import shutil
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 
-import wire
-
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tests/program"))
+import wire  # noqa: E402
 IMAGE = pathlib.Path(os.environ.get("NUCLEO_ELF", ROOT / "build/stm32f4/penduline-nucleo.elf"))
 QEMU = shutil.which("qemu-system-arm")
 
