@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace penduline {
 
@@ -47,5 +48,28 @@ class InterruptRing {
   std::atomic<std::uint32_t> filled_{0};
   std::atomic<std::uint32_t> emptied_{0};
 };
+
+/// Puts in as many of the bytes as there is room for; returns how many.
+template <std::size_t Count>
+std::size_t put_bytes(InterruptRing<std::uint8_t, Count>& ring,
+                      std::span<const std::uint8_t> bytes) {
+  std::size_t taken = 0;
+  for (std::uint8_t* slot = nullptr; taken < bytes.size() && (slot = ring.free_slot()) != nullptr;
+       ring.put()) {
+    *slot = bytes[taken++];
+  }
+  return taken;
+}
+
+/// Takes out as many bytes as there are and `bytes` holds; returns how many.
+template <std::size_t Count>
+std::size_t take_bytes(InterruptRing<std::uint8_t, Count>& ring, std::span<std::uint8_t> bytes) {
+  std::size_t given = 0;
+  for (const std::uint8_t* slot = nullptr;
+       given < bytes.size() && (slot = ring.full_slot()) != nullptr; ring.drop()) {
+    bytes[given++] = *slot;
+  }
+  return given;
+}
 
 }  // namespace penduline

@@ -39,7 +39,7 @@ tl::expected<void, Error> WireReader::greet() {
   std::array<std::uint8_t, wire::kFrameBytes<wire::AskHello> + 1> question{};
   // A zero first: it ends what noise may stand in the board's buffer.
   const std::size_t size = wire::encode_frame(wire::AskHello{}, std::span(question).subspan(1));
-  if (const auto sent = stream_.write(std::span(question).first(size + 1)); !sent) {
+  if (auto sent = stream_.write(std::span(question).first(size + 1)); !sent) {
     return sent;
   }
   const auto deadline = steady_clock::now() + kPatienceForHello;

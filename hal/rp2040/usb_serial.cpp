@@ -67,15 +67,7 @@ bool UsbSerial::start(const std::array<std::uint8_t, kUniqueIdBytes>& unique_id)
 }
 
 std::size_t UsbSerial::write(std::span<const std::uint8_t> bytes) {
-  std::size_t taken = 0;
-  while (taken < bytes.size()) {
-    std::uint8_t* slot = out_.free_slot();
-    if (slot == nullptr) {
-      break;
-    }
-    *slot = bytes[taken++];
-    out_.put();
-  }
+  const std::size_t taken = put_bytes(out_, bytes);
   disable_interrupt(Interrupt::kUsb);
   send_data();
   enable_interrupt(Interrupt::kUsb);
@@ -83,15 +75,7 @@ std::size_t UsbSerial::write(std::span<const std::uint8_t> bytes) {
 }
 
 std::size_t UsbSerial::read(std::span<std::uint8_t> bytes) {
-  std::size_t given = 0;
-  while (given < bytes.size()) {
-    const std::uint8_t* slot = in_.full_slot();
-    if (slot == nullptr) {
-      break;
-    }
-    bytes[given++] = *slot;
-    in_.drop();
-  }
+  const std::size_t given = take_bytes(in_, bytes);
   if (given > 0) {
     disable_interrupt(Interrupt::kUsb);
     open_for_data();
@@ -329,15 +313,7 @@ void UsbSerial::send_data() {
     return;
   }
   std::array<std::uint8_t, kPacketBytes> packet{};
-  std::size_t length = 0;
-  while (length < packet.size()) {
-    const std::uint8_t* slot = out_.full_slot();
-    if (slot == nullptr) {
-      break;
-    }
-    packet[length++] = *slot;
-    out_.drop();
-  }
+  const std::size_t length = take_bytes(out_, packet);
   if (length == 0) {
     return;
   }
@@ -355,12 +331,7 @@ void UsbSerial::take_data() {
       rp2040::read(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kOut)) & kLengthMask,
       packet.size());
   usb::copy_out(usb::kOutBuffer, {packet.data(), length});
-  for (std::size_t i = 0; i < length; ++i) {
-    if (std::uint8_t* slot = in_.free_slot()) {
-      *slot = packet[i];
-      in_.put();
-    }
-  }
+  put_bytes(in_, {packet.data(), length});
   open_for_data();
 }
 

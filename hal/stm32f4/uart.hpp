@@ -36,15 +36,7 @@ class Uart {
   }
 
   std::size_t write(std::span<const std::uint8_t> bytes) {
-    std::size_t taken = 0;
-    while (taken < bytes.size()) {
-      std::uint8_t* slot = out_.free_slot();
-      if (slot == nullptr) {
-        break;
-      }
-      *slot = bytes[taken++];
-      out_.put();
-    }
+    const std::size_t taken = put_bytes(out_, bytes);
     // Only the interrupt empties the ring, so that the bytes keep their order.
     disable_usart_2();
     send(stm32f4::read(usart2::kStatus));
@@ -52,18 +44,7 @@ class Uart {
     return taken;
   }
 
-  std::size_t read(std::span<std::uint8_t> bytes) {
-    std::size_t given = 0;
-    while (given < bytes.size()) {
-      const std::uint8_t* slot = in_.full_slot();
-      if (slot == nullptr) {
-        break;
-      }
-      bytes[given++] = *slot;
-      in_.drop();
-    }
-    return given;
-  }
+  std::size_t read(std::span<std::uint8_t> bytes) { return take_bytes(in_, bytes); }
 
   /// Its transmitter needs nobody at the other end: a second without a byte out is a fault.
   [[nodiscard]] bool stuck() const {
