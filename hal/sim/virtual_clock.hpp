@@ -29,10 +29,13 @@ class VirtualClock {
   /// Lets the time pass to the next alarm, of which there must be one, and takes it. An alarm whose
   /// time is over comes at once, and late.
   Alarm wait() {
-    const auto next = std::ranges::min_element(alarms_us_);
-    now_us_ = std::max(now_us_, *next);
-    *next = kNever;
-    return static_cast<Alarm>(next - alarms_us_.begin());
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < alarms_us_.size(); ++i) {
+      next = alarms_us_[i] < alarms_us_[next] ? i : next;
+    }
+    now_us_ = std::max(now_us_, alarms_us_[next]);
+    alarms_us_[next] = kNever;
+    return static_cast<Alarm>(next);
   }
 
   /// Lets the time pass with interrupts off: alarms that become due meanwhile come late.

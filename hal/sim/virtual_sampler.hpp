@@ -38,7 +38,8 @@ class Sampler {
   void on_window_alarm() {
     const std::uint64_t now_us = clock_.now_us();
     if (sequencer_.idle()) {
-      rig_.advance_to(static_cast<double>(since_us_ + now_us + kWindowUs / 2) / 1e6);
+      const std::uint64_t middle_us = since_us_ + now_us + kWindowUs / 2;
+      rig_.advance_to(static_cast<double>(middle_us) / 1e6);
     }
     sequencer_.on_window_due(due_us_, static_cast<std::uint32_t>(now_us - due_us_), mode_);
     due_us_ += period_us_;
