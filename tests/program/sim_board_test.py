@@ -5,6 +5,7 @@ import re
 import select
 import signal
 import subprocess
+import tempfile
 import termios
 import time
 import unittest
@@ -18,8 +19,11 @@ PAPER = ["--rig", RIGS / "paper.toml"]
 
 def run_board(*arguments, commands=b"", status=0):
     """Runs the board to its end; its stdout and stderr."""
-    done = subprocess.run([BOARD, *map(str, arguments)], input=commands, capture_output=True,
-                          check=False, timeout=120)
+    with tempfile.TemporaryFile() as file:  # seconds of virtual time pass before a pipe is filled
+        file.write(commands)
+        file.seek(0)
+        done = subprocess.run([BOARD, *map(str, arguments)], stdin=file, capture_output=True,
+                              check=False, timeout=120)
     if done.returncode != status:
         raise AssertionError(f"ended with {done.returncode}, expected {status}: {done.stderr}")
     return done.stdout, done.stderr.decode()
