@@ -64,6 +64,7 @@ class Machine:
         self.port, qtest = (accept(listener) for listener in listeners)
         self.qtest = qtest.makefile("rw")
         qtest.close()
+        self.port.settimeout(10)  # a board that does not read is a failure, not a wait for ever
         # QEMU stands still while what it has sent is not read, whatever we are doing.
         self.arrived = queue.Queue()
         self.reader = threading.Thread(target=self.read)
@@ -88,7 +89,13 @@ class Machine:
                 raise AssertionError(f"QEMU answered {answer!r} to an injection")
 
     def read(self):
-        while data := self.port.recv(4096):
+        while True:
+            try:
+                data = self.port.recv(4096)
+            except TimeoutError:
+                continue
+            if not data:
+                return
             self.arrived.put(data)
 
     def send(self, data):
