@@ -58,7 +58,7 @@ class Application {
     }
     board_.indicator().set(lights_.lit(now_us));
     for_each_port([&](auto& port) { port.pump(now_us); });
-    if (makes_progress(now_us)) {
+    if (makes_progress()) {
       board_.watchdog().feed();
     }
     leave_if_asked(now_us);
@@ -307,7 +307,8 @@ class Application {
   }
 
   /// Whether windows come as they should and no link has stopped.
-  [[nodiscard]] bool makes_progress(std::uint64_t now_us) {
+  [[nodiscard]] bool makes_progress() {
+    const std::uint64_t now_us = board_.clock().now_us();
     bool progress = now_us - last_window_us_ < kStatusPeriodUs + 2 * std::uint64_t{period_us_};
     for_each_port([&](auto& port) { progress = progress && !port.link().stuck(); });
     return progress;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of its time the processor is busy.
+// How much of its time the main loop is busy; interrupts that it sleeps through do not count.
 #pragma once
 
 #include <algorithm>

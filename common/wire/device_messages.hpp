@@ -116,7 +116,7 @@ struct Status {
         Field{"late_max_us", &Status::late_max_us,
               "worst lateness of a window's start since the last `Status`"},
         Field{"load_permille", &Status::load_permille,
-              "the processor's busy time since the last `Status`"},
+              "the main loop's busy time since the last `Status`"},
         Field{"temperature_cdeg", &Status::temperature_cdeg,
               "the chip's, in hundredths of a degree Celsius; 0x7fff unknown"},
         Field{"stack_free_bytes", &Status::stack_free_bytes, "stack that was never used"},
