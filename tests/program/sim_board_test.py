@@ -92,6 +92,7 @@ class StreamTest(ProgramTest):
         process.stderr.close()
 
 
+@unittest.skipUnless(os.path.exists("/dev/pts/ptmx"), "no pseudo-terminals: /dev/pts is not mounted")
 class PseudoTerminalTest(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -149,7 +150,7 @@ class PseudoTerminalTest(ProgramTest):
 
 class RefusalTest(ProgramTest):
     def refusal(self, *arguments, status=1):
-        return run_board(*arguments, status=status)[1]
+        return run_board("--link", "stdout", *arguments, status=status)[1]
 
     def test_a_rig_of_three_sensors_is_refused(self):
         text = (RIGS / "paper.toml").read_text(encoding="utf-8")

@@ -6,6 +6,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <vector>
 
@@ -160,6 +161,10 @@ TEST_CASE("A link never waits: no bytes, no room, and a broken end are told at o
 
 TEST_CASE("A pseudo-terminal passes every byte as it is", "[sim_board]") {
   auto pty = PseudoTerminal::open();
+  if (!pty && !std::filesystem::exists("/dev/pts/ptmx")) {
+    WARN("no pseudo-terminals here, for /dev/pts is not mounted: not tested");
+    return;
+  }
   REQUIRE(pty);
   std::ofstream theirs(pty->path(), std::ios::binary);
   FileLink link(pty->descriptor(), pty->descriptor());
