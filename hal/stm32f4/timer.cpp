@@ -38,6 +38,8 @@ void pend_sampling() {
 void Timer::start(std::uint32_t processor_hz) {
   constexpr std::uint32_t kOnWithInterruptFromProcessor = 7;
   ticks_per_us_ = processor_hz / 1'000'000;
+  us_per_tick_q32_ =
+      static_cast<std::uint32_t>(((std::uint64_t{1} << 32U) + ticks_per_us_ - 1) / ticks_per_us_);
   begin_interval(kLongestUs * ticks_per_us_);
   reg(cortex::kSysTickReload) = interval_ticks_ - 1;
   reg(cortex::kSysTickValue) = 0;
@@ -113,7 +115,8 @@ void Timer::plan() {
     return;  // its interrupt, which is due or nearly so, comes here again
   }
   const std::uint32_t passed = past_ticks_ + interval_ticks_ - left;
-  const std::uint64_t now_us = past_us_ + passed / ticks_per_us_;
+  const std::uint32_t passed_us = whole_us(passed);
+  const std::uint64_t now_us = past_us_ + passed_us;
   std::uint64_t wait_us = kLongestUs;
   for (const std::uint64_t alarm_us : {window_us_, wake_up_us_}) {
     if (alarm_us > now_us) {
@@ -123,7 +126,8 @@ void Timer::plan() {
     }
   }
   const std::uint32_t ticks = std::max(
-      static_cast<std::uint32_t>(wait_us) * ticks_per_us_ - passed % ticks_per_us_, kFewestTicks);
+      static_cast<std::uint32_t>(wait_us) * ticks_per_us_ - (passed - passed_us * ticks_per_us_),
+      kFewestTicks);
   reg(cortex::kSysTickReload) = ticks - 1;
   const std::uint32_t still_left = read(cortex::kSysTickValue);
   reg(cortex::kSysTickValue) = 0;
