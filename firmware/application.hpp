@@ -45,14 +45,15 @@ class Application {
 
   /// Does what is to be done now; to be called again after each interrupt.
   void step() {
-    const std::uint64_t now_us = board_.clock().now_us();
+    const std::uint64_t begun_us = board_.clock().now_us();
     for_each_port([&](auto& port) {
-      port.receive(now_us, [&](const wire::Frame& frame) { on_frame(port, frame); });
+      port.receive(begun_us, [&](const wire::Frame& frame) { on_frame(port, frame); });
     });
     Window window;
     while (board_.sampler().take(window)) {
       on_window(window);
     }
+    const std::uint64_t now_us = board_.clock().now_us();  // commands and windows took their time
     if (now_us - last_status_us_ >= kStatusPeriodUs) {
       say_status();
     }

@@ -48,13 +48,15 @@ class Port {
 
   /// Calls `on_frame(const wire::Frame&)` for each frame that has come. Takes no more than there is
   /// room for the answers of, so that a flood waits at the host; but a host that has not read for a
-  /// while is heard all the same.
+  /// while is heard all the same. A call takes kMostPieces pieces at most, so that windows are not
+  /// kept waiting.
   template <class OnFrame>
   void receive(std::uint64_t now_us, const OnFrame& on_frame) {
     constexpr std::uint64_t kDeafUs = 100'000;
+    constexpr int kMostPieces = 16;
     const bool deaf = now_us - last_sent_us_ > kDeafUs;
     std::array<std::uint8_t, 32> piece{};
-    while (deaf || waiting_.free_bytes() > kWaitingBytes / 2) {
+    for (int i = 0; i < kMostPieces && (deaf || waiting_.free_bytes() > kWaitingBytes / 2); ++i) {
       const std::size_t size = link_.read(piece);
       if (size == 0) {
         return;

@@ -114,7 +114,8 @@ tl::expected<bool, Error> WireReader::read(Sample& sample) {
       }
     } else if ((*frame)->type == wire::Status::kType) {
       if (const auto status = wire::read_message<wire::Status>((*frame)->payload)) {
-        dropped_frames_ = status->dropped_frames;
+        dropped_before_ = dropped_before_.value_or(status->dropped_frames);
+        dropped_frames_ = status->dropped_frames - *dropped_before_;
       }
     }
   }

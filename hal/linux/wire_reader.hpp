@@ -53,7 +53,9 @@ class WireReader {
   wire::Hello hello_;
   Acquisition<double> acquisition_;
   std::uint64_t last_seq_ = 0;
-  std::uint32_t dropped_frames_ = 0;
+  std::optional<std::uint32_t>
+      dropped_before_;                ///< as the first Status counts since the board's start
+  std::uint32_t dropped_frames_ = 0;  ///< since then
   bool bytes_seen_ = false;
   bool ended_ = false;
 };

@@ -116,7 +116,9 @@ bool FlashStore::replace(std::span<const std::uint8_t> block) {
     const cortex_m::InterruptLock lock;
     program_page(flash, kStoreOffset + at, page);
   }
-  return std::equal(block.begin(), block.end(), contents().begin());
+  const auto rest = contents().subspan(block.size());
+  return std::equal(block.begin(), block.end(), contents().begin()) &&
+         std::ranges::all_of(rest, [](std::uint8_t byte) { return byte == 0xff; });
 }
 
 void FlashId::start() {

@@ -18,6 +18,12 @@ inline void connect_pin(std::uint32_t pin, std::uint32_t function) {
   reg(gpio::kFunction + 8 * pin) = function;
 }
 
+/// Pulls a connected pin up, so that it does not float where nothing is plugged in.
+inline void pull_up(std::uint32_t pin) {
+  constexpr std::uint32_t kPullUp = 1U << 3U;
+  set_bits(gpio::kPad + 4 * pin, kPullUp);
+}
+
 /// Makes a pin analogue: no digital input, output or pull (4.9.1).
 inline void make_analogue(std::uint32_t pin) {
   constexpr std::uint32_t kOutputOff = 1U << 7U;

@@ -35,6 +35,7 @@ class Uart {
     reg(uart::kCtrl) = kOnBothWays;
     connect_pin(kOutPin, gpio::kFunctionUart);
     connect_pin(kInPin, gpio::kFunctionUart);
+    pull_up(kInPin);
     reg(uart::kInterruptMask) = kReceived | kReceiveTimeout;
     return true;
   }

@@ -98,8 +98,14 @@ TEST_CASE("Other messages, also unknown ones, are skipped", "[wire_reader]") {
 }
 
 TEST_CASE("Frames that the board dropped are told", "[wire_reader]") {
-  const ReadOut out = read_bytes(kHello + frame_of(wire::Status{.dropped_frames = 12}));
+  const ReadOut out = read_bytes(kHello + frame_of(wire::Status{.dropped_frames = 30}) +
+                                 frame_of(wire::Status{.dropped_frames = 42}));
   CHECK(out.complaints == Lines{"board: the board dropped 12 frames that nobody read in time"});
+}
+
+TEST_CASE("What the board dropped while nobody listened is no fault of this stream",
+          "[wire_reader]") {
+  CHECK(read_bytes(kHello + frame_of(wire::Status{.dropped_frames = 30})).complaints.empty());
 }
 
 TEST_CASE("A last frame that is cut is no sample", "[wire_reader]") {
