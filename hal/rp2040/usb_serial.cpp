@@ -89,13 +89,11 @@ void UsbSerial::on_interrupt() {
   if ((status & usb::kOnBusReset) != 0) {
     reg(usb::kSieStatus) = usb::kBusResetSeen;
     reg(usb::kAddress) = 0;
+    reg(usb::kBufferStatus) = rp2040::read(usb::kBufferStatus);
     stage_ = Stage::kIdle;
     configure(false);
   }
-  if ((status & usb::kOnSetup) != 0) {
-    reg(usb::kSieStatus) = usb::kSetupSeen;
-    on_setup();
-  }
+  // What a transfer has finished belongs to it and not to the request that comes after it.
   if ((status & usb::kOnBuffer) != 0) {
     const std::uint32_t done = rp2040::read(usb::kBufferStatus);
     reg(usb::kBufferStatus) = done;
@@ -112,6 +110,10 @@ void UsbSerial::on_interrupt() {
     if ((done & usb::buffer_bit(usb::kDataEndpoint, Direction::kOut)) != 0) {
       take_data();
     }
+  }
+  if ((status & usb::kOnSetup) != 0) {
+    reg(usb::kSieStatus) = usb::kSetupSeen;
+    on_setup();
   }
 }
 
@@ -296,6 +298,8 @@ void UsbSerial::on_control_out() {
 void UsbSerial::configure(bool on) {
   configured_ = on;
   in_armed_ = out_armed_ = in_data1_ = out_data1_ = false;
+  reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kIn)) = 0;
+  reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kOut)) = 0;
   if (!on) {
     return;
   }
