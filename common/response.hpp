@@ -74,6 +74,21 @@ struct PolynomialResponse {
                   [&](Scalar volts) { return (value(volts) > gap_m) == rising; });
   }
 
+  /// Whether the gap keeps rising or keeps falling over the range, by its values at so many places.
+  [[nodiscard]] bool is_monotone(int places) const {
+    const Scalar step = (volts_max - volts_min) / static_cast<Scalar>(places);
+    const bool rising = value(volts_max) > value(volts_min);
+    Scalar before = value(volts_min);
+    for (int i = 1; i <= places; ++i) {
+      const Scalar here = value(volts_min + static_cast<Scalar>(i) * step);
+      if (!std::isfinite(here) || !(rising ? here > before : here < before)) {
+        return false;
+      }
+      before = here;
+    }
+    return true;
+  }
+
   /// The polynomial's value in metres.
   [[nodiscard]] Scalar value(Scalar volts) const {
     Scalar sum = 0;

@@ -26,22 +26,8 @@ Response<double> read_inverse_square(TomlSection& section) {
                                                  .c_v = section.number("c_v", kAnyNumber)}};
 }
 
-/// Whether the polynomial keeps rising or keeps falling over its range, by its values at many
-/// places.
-bool is_monotone(const PolynomialResponse<double>& model) {
-  constexpr int kPlaces = 1000;
-  const double step = (model.volts_max - model.volts_min) / kPlaces;
-  const double direction = model.value(model.volts_max) - model.value(model.volts_min);
-  for (int i = 0; i < kPlaces; ++i) {
-    const double volts = model.volts_min + i * step;
-    if (!((model.value(volts + step) - model.value(volts)) * direction > 0)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 Response<double> read_polynomial(TomlSection& section) {
+  constexpr int kPlaces = 1000;
   PolynomialResponse<double> model;
   const std::vector<double> coefficients =
       section.numbers("coefficients", 2, PolynomialResponse<double>::kMaxCoefficients);
@@ -50,7 +36,7 @@ Response<double> read_polynomial(TomlSection& section) {
   const std::vector<double> range = section.numbers("range_v", 2, 2);
   model.volts_min = range[0];
   model.volts_max = range[1];
-  if (!(range[0] < range[1]) || !is_monotone(model)) {
+  if (!(range[0] < range[1]) || !model.is_monotone(kPlaces)) {
     section.fail("range_v",
                  "the gap must keep rising or keep falling from the first to the second");
   }

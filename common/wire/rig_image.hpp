@@ -212,6 +212,8 @@ class RigImageReader {
   }
 
   [[nodiscard]] PolynomialResponse<float> polynomial() {
+    // Coarser than the host's check of the same, so that a float's rounding does not fail it.
+    constexpr int kPlaces = 64;
     PolynomialResponse<float> curve;
     curve.volts_min = finite();
     curve.volts_max = finite();
@@ -220,24 +222,8 @@ class RigImageReader {
     for (std::size_t i = 0; i < curve.count; ++i) {
       curve.coefficient[i] = finite();
     }
-    require(is_monotone(curve));
+    require(curve.is_monotone(kPlaces));
     return curve;
-  }
-
-  /// Coarser than the host's check of the same, so that a float's rounding does not fail it.
-  [[nodiscard]] static bool is_monotone(const PolynomialResponse<float>& curve) {
-    constexpr int kPlaces = 64;
-    const float step = (curve.volts_max - curve.volts_min) / kPlaces;
-    const bool rising = curve.value(curve.volts_max) > curve.value(curve.volts_min);
-    float before = curve.value(curve.volts_min);
-    for (int i = 1; i <= kPlaces; ++i) {
-      const float here = curve.value(curve.volts_min + static_cast<float>(i) * step);
-      if (!std::isfinite(here) || !(rising ? here > before : here < before)) {
-        return false;
-      }
-      before = here;
-    }
-    return true;
   }
 
   ByteReader reader_;

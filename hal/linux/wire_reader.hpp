@@ -35,6 +35,8 @@ class WireReader {
 
   /// "PATH: seq N" of the sample read last.
   [[nodiscard]] std::string place() const;
+  /// Nobody knows how much is still to come.
+  [[nodiscard]] double progress() const { return 0; }
   /// What is wrong with the stream and cost no sample that came whole; grows while reading.
   [[nodiscard]] std::vector<std::string> complaints() const;
 

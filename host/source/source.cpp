@@ -14,11 +14,29 @@
 namespace penduline {
 namespace {
 
-class RecordingSource final : public Source {
- public:
-  explicit RecordingSource(RecordingReader reader) : reader_(std::move(reader)) {}
+RecordingHeader header_of(const RecordingReader& reader) {
+  return reader.header();
+}
 
-  [[nodiscard]] RecordingHeader header() const override { return reader_.header(); }
+RecordingHeader header_of(const VoltageLogReader& reader) {
+  return {.acquisition = reader.acquisition(), .board = "", .firmware = "", .started = ""};
+}
+
+RecordingHeader header_of(const WireReader& reader) {
+  const wire::Hello& hello = reader.hello();
+  return {.acquisition = reader.acquisition(),
+          .board = std::string(wire::characters_of(hello.board)),
+          .firmware = std::string(wire::characters_of(hello.firmware)),
+          .started = ""};
+}
+
+/// A reader of files or of a board's stream.
+template <class Reader>
+class ReaderSource final : public Source {
+ public:
+  explicit ReaderSource(Reader reader) : reader_(std::move(reader)) {}
+
+  [[nodiscard]] RecordingHeader header() const override { return header_of(reader_); }
   tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
   [[nodiscard]] std::string place() const override { return reader_.place(); }
   [[nodiscard]] double progress() const override { return reader_.progress(); }
@@ -27,49 +45,17 @@ class RecordingSource final : public Source {
   }
 
  private:
-  RecordingReader reader_;
+  Reader reader_;
 };
 
-class VoltageLogSource final : public Source {
- public:
-  explicit VoltageLogSource(VoltageLogReader reader) : reader_(std::move(reader)) {}
-
-  [[nodiscard]] RecordingHeader header() const override {
-    return {.acquisition = reader_.acquisition(), .board = "", .firmware = "", .started = ""};
+/// What opening a reader came to, as a source.
+template <class Reader>
+tl::expected<std::unique_ptr<Source>, Error> source_of(tl::expected<Reader, Error> reader) {
+  if (!reader) {
+    return tl::unexpected(reader.error());
   }
-  tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
-  [[nodiscard]] std::string place() const override { return reader_.place(); }
-  [[nodiscard]] double progress() const override { return reader_.progress(); }
-  [[nodiscard]] std::vector<std::string> complaints() const override {
-    return reader_.complaints();
-  }
-
- private:
-  VoltageLogReader reader_;
-};
-
-/// A board's stream.
-class WireSource final : public Source {
- public:
-  explicit WireSource(WireReader reader) : reader_(std::move(reader)) {}
-
-  [[nodiscard]] RecordingHeader header() const override {
-    const wire::Hello& hello = reader_.hello();
-    return {.acquisition = reader_.acquisition(),
-            .board = std::string(wire::characters_of(hello.board)),
-            .firmware = std::string(wire::characters_of(hello.firmware)),
-            .started = ""};
-  }
-  tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
-  [[nodiscard]] std::string place() const override { return reader_.place(); }
-  [[nodiscard]] double progress() const override { return 0; }
-  [[nodiscard]] std::vector<std::string> complaints() const override {
-    return reader_.complaints();
-  }
-
- private:
-  WireReader reader_;
-};
+  return std::make_unique<ReaderSource<Reader>>(std::move(*reader));
+}
 
 class SimulatedSource final : public Source {
  public:
@@ -108,20 +94,12 @@ std::vector<std::string> simulation_complaints(const SampledRig& rig) {
 }
 
 tl::expected<std::unique_ptr<Source>, Error> open_recording(const std::string& path) {
-  auto reader = RecordingReader::open(path);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  return std::make_unique<RecordingSource>(std::move(*reader));
+  return source_of(RecordingReader::open(path));
 }
 
 tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(const std::string& path,
                                                               const VoltageLogLayout& layout) {
-  auto reader = VoltageLogReader::open(path, layout);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  return std::make_unique<VoltageLogSource>(std::move(*reader));
+  return source_of(VoltageLogReader::open(path, layout));
 }
 
 SourceUri parse_uri(std::string_view uri) {
@@ -139,11 +117,7 @@ SourceUri parse_uri(std::string_view uri) {
 }
 
 tl::expected<std::unique_ptr<Source>, Error> open_board(const std::string& path) {
-  auto reader = WireReader::open(path);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  return std::make_unique<WireSource>(std::move(*reader));
+  return source_of(WireReader::open(path));
 }
 
 tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
