@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -87,7 +90,9 @@ class Application {
   }
   template <wire::Message Message>
   void send_to_all(const Message& message) {
-    for_each_port([&](auto& port) { port.send(message); });
+    std::array<std::uint8_t, wire::kFrameBytes<Message>> frame{};
+    const std::size_t size = wire::encode_frame(message, frame);
+    for_each_port([&](auto& port) { port.send_frame({frame.data(), size}); });
   }
 
   void on_window(const Window& window) {

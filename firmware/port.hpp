@@ -22,8 +22,10 @@ class Port {
   template <wire::Message Message>
   void send(const Message& message) {
     std::array<std::uint8_t, wire::kFrameBytes<Message>> frame{};
-    waiting_.push({frame.data(), wire::encode_frame(message, frame)});
+    send_frame({frame.data(), wire::encode_frame(message, frame)});
   }
+  /// A frame that is encoded already.
+  void send_frame(std::span<const std::uint8_t> frame) { waiting_.push(frame); }
 
   /// Hands the link what it has room for, each frame between two zeros of its own, so that one zero
   /// that is damaged costs one frame. A frame that has begun to go out is not dropped any more.
@@ -66,7 +68,6 @@ class Port {
   }
 
   [[nodiscard]] const Link& link() const { return link_; }
-  [[nodiscard]] Link& link() { return link_; }
   [[nodiscard]] std::uint32_t dropped_frames() const { return waiting_.dropped(); }
   [[nodiscard]] std::uint32_t bad_frames() const { return decoder_.bad_frames(); }
 

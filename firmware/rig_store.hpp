@@ -29,9 +29,6 @@ inline constexpr std::uint32_t kMark = 0x31474952;  // "RIG1"
 inline constexpr std::uint8_t kErased = 0xff;
 inline constexpr std::size_t kHeadBytes =
     sizeof(kMark) + sizeof(std::uint16_t) + sizeof(std::uint32_t);
-}  // namespace rig_store
-
-namespace rig_store {
 
 /// Whether nothing was ever written there.
 [[nodiscard]] inline bool is_erased(std::span<const std::uint8_t> contents) {
