@@ -2,49 +2,21 @@
 // A rig on the board: uploaded, stored, solved with, damaged.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 import { crc32 } from '../emulator/wire.mjs';
-import { Board, Result, assertUnbroken, only, root, samplesOf } from './board.mjs';
+import { Board, Result, assertUnbroken, only, samplesOf } from './board.mjs';
+import { boardWithRig as boardWithRigFor, imageFor, partsOf, upload } from './rig.mjs';
 import { Swing, penduline, readCsv, rig } from './swing.mjs';
 
-const kPartBytes = 48;
 const kStoreOffset = 2 * 1024 * 1024 - 4096;
 const Store = { empty: 0, valid: 1, damaged: 2 };
 
 const swing = new Swing(10);
 
-/** The image of a rig file. */
-function imageOf(file) {
-  const program = process.env.RIG_IMAGE ?? path.join(root, 'build/release/rig_image');
-  const output = path.join(swing.folder, `${path.basename(file)}.image`);
-  execFileSync(program, [file, output]);
-  return fs.readFileSync(output);
-}
-
-const image = imageOf(rig);
-
-function upload(board, bytes, { crc = crc32(bytes) } = {}) {
-  assert.equal(board.command('BeginRig', { size_bytes: bytes.length, crc }).reply.result, Result.done);
-  for (let offset = 0; offset < bytes.length; offset += kPartBytes) {
-    const part = new Uint8Array(kPartBytes);
-    const piece = bytes.subarray(offset, offset + kPartBytes);
-    part.set(piece);
-    const { reply } = board.command('RigPart', { offset, count: piece.length, bytes: part });
-    assert.equal(reply.result, Result.done);
-  }
-  return board.command('EndRig');
-}
-
-/** A board that knows the rig and sees the swing. */
-function boardWithRig() {
-  const board = new Board({ pins: swing.pins() });
-  board.run(0.2);
-  assert.equal(upload(board, image).reply.result, Result.done);
-  return board;
-}
+const image = imageFor(swing);
+const boardWithRig = () => boardWithRigFor(swing, image);
 
 test('without a rig there are no angles', () => {
   const board = new Board();
@@ -167,11 +139,8 @@ test('a piece that comes twice changes nothing', () => {
   const board = new Board({ pins: swing.pins() });
   board.run(0.2);
   board.command('BeginRig', { size_bytes: image.length, crc: crc32(image) });
-  for (let offset = 0; offset < image.length; offset += kPartBytes) {
-    const bytes = new Uint8Array(kPartBytes);
-    const piece = image.subarray(offset, offset + kPartBytes);
-    bytes.set(piece);
-    for (let i = 0; i < 2; i++) board.command('RigPart', { offset, count: piece.length, bytes });
+  for (const part of partsOf(image)) {
+    for (let i = 0; i < 2; i++) board.command('RigPart', part);
   }
   assert.equal(board.command('EndRig').reply.result, Result.done);
 });
