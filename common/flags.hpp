@@ -16,6 +16,7 @@ namespace flag {
 inline constexpr Flags kSaturated = 1U << 0U;
 inline constexpr Flags kOverrun = 1U << 1U;
 inline constexpr Flags kRestarted = 1U << 2U;
+inline constexpr Flags kLate = 1U << 3U;
 // Bits 8 and up are set by the pipeline and stand in the estimates only.
 inline constexpr Flags kDropout = 1U << 8U;
 inline constexpr Flags kOutOfOrder = 1U << 9U;
@@ -42,6 +43,9 @@ inline constexpr std::array kFlagDescriptions = {
                     "a conversion reached the end of the ADC's range in a sample that went in"},
     FlagDescription{flag::kOverrun, "overrun", "the device lost conversions during the sample"},
     FlagDescription{flag::kRestarted, "restarted", "the first sample after the device started"},
+    FlagDescription{
+        flag::kLate, "late",
+        "the device took the sample late by over an eighth of a period, or was held up"},
     FlagDescription{flag::kDropout, "dropout",
                     "samples are lost before this one, or sampling paused"},
     FlagDescription{flag::kOutOfOrder, "out_of_order",

@@ -47,15 +47,15 @@ struct CodeSum {
       largest = std::max(largest, *code);
     }
   }
-  Sample sample{
-      .seq = seq,
-      .t_us = static_cast<std::int64_t>(window.start_us + window.late_us + window_us / 2)};
+  Sample sample{.seq = seq,
+                .t_us = static_cast<std::int64_t>(window.due_us + window.late_us + window_us / 2)};
   for (std::size_t channel = 0; channel < kChannels; ++channel) {
     sample.readings[channel] = {.on = sums[channel][1].counts(top_code),
                                 .off = sums[channel][0].counts(top_code)};
   }
-  sample.flags =
-      (largest >= top_code ? flag::kSaturated : 0) | (window.lost_before > 0 ? flag::kOverrun : 0);
+  sample.flags = (largest >= top_code ? flag::kSaturated : 0) |
+                 (window.lost_before > 0 ? flag::kOverrun : 0) |
+                 (window.out_of_step ? flag::kLate : 0);
   return sample;
 }
 

@@ -33,13 +33,14 @@ concept Emitter = requires(Light& emitter, bool lit) {
 /// told to `WindowSequencer::on_burst_done`.
 template <class Adc>
 concept BurstConverter = requires(Adc& adc, std::uint8_t first_channel, std::uint16_t* codes) {
+  { Adc::kConversionNs } -> std::convertible_to<std::uint32_t>;
   /// Begins kConversionsPerBurst conversions into `codes`; true where they are there on return.
   { adc.convert(first_channel, codes) } -> std::same_as<bool>;
 };
 
 /// Calls `WindowSequencer::on_wake_up` once, a given time later. Called from an interrupt.
 template <class Timer>
-concept WakeUpTimer = requires(Timer& timer, std::uint32_t delay_us) {
+concept WakeUpTimer = TickClock<Timer> && requires(Timer& timer, std::uint32_t delay_us) {
   { timer.wake_after(delay_us) } -> std::same_as<void>;
 };
 

@@ -40,10 +40,15 @@ inline constexpr std::uint32_t kSettlingUs = 150;
   return 2 * kSettlingUs + static_cast<std::uint32_t>(kConversionsPerWindow) * conversion_ns / 1000;
 }
 
+/// A window that takes longer than its length by more than this share was held up: its readings do
+/// not refer to one moment. A power of two.
+inline constexpr std::uint32_t kHeldUpShare = 8;
+
 /// One window's conversions, as the board took them.
 struct Window {
-  std::uint64_t start_us = 0;  ///< when it was due to begin
-  std::uint32_t late_us = 0;   ///< by how much later it began
+  std::uint64_t due_us = 0;   ///< when it was to begin
+  std::uint32_t late_us = 0;  ///< by how much later its first conversion began
+  bool out_of_step = false;   ///< it began too late, or was held up: see `kHeldUpShare`
   EmitterMode mode = EmitterMode::kSwitched;
   std::uint32_t lost_before = 0;  ///< windows that were due before this one and not taken
   std::array<std::uint16_t, kConversionsPerWindow> codes{};  ///< burst by burst

@@ -22,17 +22,18 @@ class WindowSequencer {
   WindowSequencer(Light& emitter, Adc& adc, Timer& timer)
       : emitter_(emitter), adc_(adc), timer_(timer) {}
 
-  /// A window is due. While the one before is still running, or nobody took the ones before, it is
-  /// lost and counted.
-  void on_window_due(std::uint64_t start_us, std::uint32_t late_us, EmitterMode mode) {
+  /// A window is due; it is out of step where its first conversion begins more than `most_late_us`
+  /// later. While the one before is still running, or nobody took the ones before, it is lost and
+  /// counted.
+  void on_window_due(std::uint64_t due_us, std::uint32_t most_late_us, EmitterMode mode) {
     Window* free = window_ == nullptr ? windows_.free_slot() : nullptr;
     if (free == nullptr) {
       on_window_missed();
       return;
     }
     window_ = free;
-    window_->start_us = start_us;
-    window_->late_us = late_us;
+    most_late_us_ = most_late_us;
+    window_->due_us = due_us;
     window_->mode = mode;
     window_->lost_before = lost_;
     lost_ = 0;
@@ -62,6 +63,9 @@ class WindowSequencer {
       begin_burst();
       return;
     }
+    const std::uint64_t took_us = timer_.now_us() - window_->due_us - window_->late_us;
+    window_->out_of_step =
+        window_->late_us > most_late_us_ || took_us > kWindowUs + kWindowUs / kHeldUpShare;
     window_ = nullptr;
     windows_.put();
   }
@@ -77,6 +81,8 @@ class WindowSequencer {
   }
 
  private:
+  static constexpr std::uint32_t kWindowUs = window_us(Adc::kConversionNs);
+
   [[nodiscard]] bool to_be_lit() const {
     return window_->mode == EmitterMode::kSwitched ? kBursts[burst_].lit
                                                    : window_->mode == EmitterMode::kLit;
@@ -94,10 +100,7 @@ class WindowSequencer {
       lit_ = !lit_;
       emitter_.set(lit_);
     }
-    if (switches && burst_ == 0) {
-      window_->late_us += kSettlingUs;  // the mode has changed: this window begins with a wait
-    }
-    if (switches || is_to_settle()) {
+    if (switches || is_to_settle()) {  // also before the first burst, where the mode has changed
       timer_.wake_after(kSettlingUs);
     } else {
       convert();
@@ -105,6 +108,9 @@ class WindowSequencer {
   }
 
   void convert() {
+    if (burst_ == 0) {
+      window_->late_us = static_cast<std::uint32_t>(timer_.now_us() - window_->due_us);
+    }
     std::uint16_t* codes = &window_->codes[burst_ * kConversionsPerBurst];
     if (adc_.convert(kBursts[burst_].first_channel, codes)) {
       on_burst_done();
@@ -115,7 +121,8 @@ class WindowSequencer {
   Adc& adc_;
   Timer& timer_;
   InterruptRing<Window, kWaitingWindows> windows_;
-  Window* window_ = nullptr;  ///< the one that is running
+  Window* window_ = nullptr;        ///< the one that is running
+  std::uint32_t most_late_us_ = 0;  ///< of it
   std::size_t burst_ = 0;
   std::uint32_t lost_ = 0;
   bool lit_ = false;

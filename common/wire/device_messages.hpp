@@ -114,7 +114,7 @@ struct Status {
         Field{"bad_frames", &Status::bad_frames, "frames received damaged"},
         Field{"overruns", &Status::overruns, "windows in which conversions were lost"},
         Field{"late_max_us", &Status::late_max_us,
-              "worst lateness of a window's start since the last `Status`"},
+              "worst lateness of a window's first conversion since the last `Status`"},
         Field{"load_permille", &Status::load_permille,
               "the main loop's busy time since the last `Status`"},
         Field{"temperature_cdeg", &Status::temperature_cdeg,

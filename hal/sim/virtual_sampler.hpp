@@ -8,6 +8,7 @@
 #include "hal/sim/simulated_rig.hpp"
 #include "hal/sim/virtual_adc.hpp"
 #include "hal/sim/virtual_clock.hpp"
+#include "hal/window_schedule.hpp"
 #include "hal/window_sequencer.hpp"
 
 namespace penduline::sim {
@@ -24,29 +25,20 @@ class Sampler {
       : clock_(clock), rig_(rig), since_us_(since_us), sequencer_(emitters, adc, clock) {}
 
   void start(std::uint32_t period_us, EmitterMode mode) {
-    period_us_ = period_us;
-    mode_ = mode;
-    if (!running_) {
-      running_ = true;
-      due_us_ = clock_.now_us() + period_us;
-      clock_.set_alarm(Alarm::kWindow, due_us_);
+    if (schedule_.start(period_us, mode, clock_.now_us())) {
+      clock_.set_alarm(Alarm::kWindow, schedule_.due_us());
     }
   }
 
   bool take(Window& window) { return sequencer_.take(window); }
 
   void on_window_alarm() {
-    const std::uint64_t now_us = clock_.now_us();
     if (sequencer_.idle()) {
-      const std::uint64_t middle_us = since_us_ + now_us + kWindowUs / 2;
+      const std::uint64_t middle_us = since_us_ + clock_.now_us() + kWindowUs / 2;
       rig_.advance_to(static_cast<double>(middle_us) / 1e6);
     }
-    sequencer_.on_window_due(due_us_, static_cast<std::uint32_t>(now_us - due_us_), mode_);
-    due_us_ += period_us_;
-    for (; due_us_ < now_us; due_us_ += period_us_) {
-      sequencer_.on_window_missed();
-    }
-    clock_.set_alarm(Alarm::kWindow, due_us_);
+    schedule_.on_alarm(sequencer_, clock_);
+    clock_.set_alarm(Alarm::kWindow, schedule_.due_us());
   }
   void on_settled() { sequencer_.on_wake_up(); }
   void on_burst_done() { sequencer_.on_burst_done(); }
@@ -56,10 +48,7 @@ class Sampler {
   SimulatedRig& rig_;
   std::uint64_t since_us_;
   WindowSequencer<Emitters, Adc, VirtualClock> sequencer_;
-  std::uint32_t period_us_ = 0;
-  EmitterMode mode_ = EmitterMode::kSwitched;
-  std::uint64_t due_us_ = 0;
-  bool running_ = false;
+  WindowSchedule schedule_;
 };
 
 static_assert(PairedSampler<Sampler>);

@@ -19,7 +19,7 @@ export const kTopCode = 4095, kFullScale = 65535;
 export const kTemperatureCode = 876;
 
 /** Flags of a sample (docs/formats.md). */
-export const kSaturated = 1, kOverrun = 2, kRestarted = 4;
+export const kSaturated = 1, kOverrun = 2, kRestarted = 4, kLate = 8;
 
 /** Names of Reply.result, from docs/protocol.md. */
 export const Result = {

@@ -41,7 +41,7 @@ TEST_CASE("Names are words that a file's cell can hold", "[flags]") {
 }
 
 TEST_CASE("The device's flags are bits 0 to 7, the pipeline's are above", "[flags]") {
-  CHECK((flag::kSaturated | flag::kOverrun | flag::kRestarted) < 256U);
+  CHECK((flag::kSaturated | flag::kOverrun | flag::kRestarted | flag::kLate) < 256U);
   CHECK(std::min({flag::kDropout, flag::kOutOfOrder, flag::kMissing, flag::kFilling,
                   flag::kOutOfRange, flag::kFolded, flag::kIllConditioned, flag::kNoSolution}) ==
         256U);

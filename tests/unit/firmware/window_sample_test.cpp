@@ -72,7 +72,7 @@ TEST_CASE("A mean is scaled exactly and rounded to the nearest", "[window_sample
 
 TEST_CASE("The moment is the middle of the window as it really ran", "[window_sample]") {
   Window window = kSwitched;
-  window.start_us = 5'000'000'000'000;
+  window.due_us = 5'000'000'000'000;
   window.late_us = 21;
   CHECK(sample_of(window, 0, kTop, 556).t_us == 5'000'000'000'299);
 }
@@ -92,6 +92,12 @@ TEST_CASE("A window after lost ones is flagged", "[window_sample]") {
   Window window = kSwitched;
   window.lost_before = 1;
   CHECK(sample_of(window, 0, kTop, 556).flags == flag::kOverrun);
+}
+
+TEST_CASE("A window out of step is flagged", "[window_sample]") {
+  Window window = kSwitched;
+  window.out_of_step = true;
+  CHECK(sample_of(window, 0, kTop, 556).flags == flag::kLate);
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ struct NotingLight {
 struct NotingTimer {
   Course& course;
   std::vector<std::uint32_t> delays_us{};
+  std::uint64_t time_us = 0;
+  [[nodiscard]] std::uint64_t now_us() const { return time_us; }
   void wake_after(std::uint32_t delay_us) {
     course.emplace_back("wait");
     delays_us.push_back(delay_us);
@@ -28,6 +30,7 @@ struct NotingTimer {
 };
 /// Fills each burst with its place in the course, at once or when told.
 struct NotingAdc {
+  static constexpr std::uint32_t kConversionNs = 2000;
   Course& course;
   bool at_once = false;
   bool convert(std::uint8_t first_channel, std::uint16_t* codes) {
@@ -102,12 +105,13 @@ TEST_CASE("A converter that is done at once takes the same course", "[window]") 
 
 TEST_CASE("A finished window has its start, its mode and its codes in order", "[window]") {
   Hardware hardware;
-  hardware.sequencer.on_window_due(123'456, 7, EmitterMode::kSwitched);
+  hardware.timer.time_us = 123'463;
+  hardware.sequencer.on_window_due(123'456, 100, EmitterMode::kSwitched);
   Window window;
   CHECK_FALSE(hardware.sequencer.take(window));
   hardware.finish();
   REQUIRE(hardware.sequencer.take(window));
-  CHECK(window.start_us == 123'456);
+  CHECK(window.due_us == 123'456);
   CHECK(window.late_us == 7);
   CHECK(window.mode == EmitterMode::kSwitched);
   CHECK(window.lost_before == 0);
@@ -117,6 +121,38 @@ TEST_CASE("A finished window has its start, its mode and its codes in order", "[
   CHECK(window.codes[2 * kConversionsPerBurst] == 4);
   CHECK(window.codes.back() == 7);
   CHECK_FALSE(hardware.sequencer.take(window));
+}
+
+TEST_CASE("A window that begins too late or is held up is out of step", "[window]") {
+  constexpr std::uint64_t kDueUs = 1000;
+  constexpr std::uint32_t kMostLateUs = 125;
+  constexpr std::uint64_t kLengthUs = 556;  // 2 * 150 + 128 * 2
+  constexpr std::uint64_t kMostHeldUpUs = kLengthUs / 8;
+  const auto out_of_step = [](std::uint64_t late_us, std::uint64_t took_us) {
+    Hardware hardware;
+    hardware.timer.time_us = kDueUs + late_us;
+    hardware.sequencer.on_window_due(kDueUs, kMostLateUs, EmitterMode::kSwitched);
+    hardware.timer.time_us += took_us;
+    hardware.finish();
+    Window window;
+    REQUIRE(hardware.sequencer.take(window));
+    CHECK(window.late_us == late_us);
+    return window.out_of_step;
+  };
+  CHECK_FALSE(out_of_step(0, kLengthUs));
+  CHECK_FALSE(out_of_step(kMostLateUs, kLengthUs + kMostHeldUpUs));
+  CHECK(out_of_step(kMostLateUs + 1, kLengthUs));
+  CHECK(out_of_step(0, kLengthUs + kMostHeldUpUs + 1));
+}
+
+TEST_CASE("The wait after a change of mode is part of the lateness", "[window]") {
+  Hardware hardware;
+  hardware.sequencer.on_window_due(0, kSettlingUs, EmitterMode::kLit);
+  hardware.timer.time_us = kSettlingUs + 2;
+  hardware.finish();
+  Window window;
+  REQUIRE(hardware.sequencer.take(window));
+  CHECK(window.late_us == kSettlingUs + 2);
 }
 
 TEST_CASE("A window that is due while one runs is lost and counted before the next", "[window]") {
@@ -146,7 +182,7 @@ TEST_CASE("Windows that nobody takes are lost and counted, the waiting ones kept
   Window window;
   for (std::uint64_t i = 0; i < kWaitingWindows; ++i) {
     REQUIRE(hardware.sequencer.take(window));
-    CHECK(window.start_us == i);
+    CHECK(window.due_us == i);
   }
   REQUIRE_FALSE(hardware.sequencer.take(window));
   hardware.sequencer.on_window_due(kDue, 0, EmitterMode::kDark);
