@@ -58,7 +58,7 @@ class Port {
     constexpr int kMostPieces = 16;
     const bool deaf = now_us - last_sent_us_ > kDeafUs;
     std::array<std::uint8_t, 32> piece{};
-    for (int i = 0; i < kMostPieces && (deaf || waiting_.free_bytes() > kWaitingBytes / 2); ++i) {
+    for (int i = 0; i < kMostPieces && (deaf || waiting_.free_bytes() > Link::kWaitingBytes / 2); ++i) {
       const std::size_t size = link_.read(piece);
       if (size == 0) {
         return;
@@ -72,10 +72,8 @@ class Port {
   [[nodiscard]] std::uint32_t bad_frames() const { return decoder_.bad_frames(); }
 
  private:
-  static constexpr std::size_t kWaitingBytes = 2048;
-
   Link& link_;
-  FrameRing<kWaitingBytes> waiting_;
+  FrameRing<Link::kWaitingBytes> waiting_;
   std::array<std::uint8_t, 1 + wire::kMaxFrameBytes> going_{};  ///< a zero, then the frame
   std::size_t size_ = 0;
   std::size_t sent_ = 0;

@@ -62,6 +62,8 @@ concept PairedSampler = requires(Sampler& sampler, Window& window, std::uint32_t
 template <class Link>
 concept ByteLink = requires(Link& link, std::span<const std::uint8_t> out,
                             std::span<std::uint8_t> in) {
+  /// How many bytes of frames may wait for it; a power of two.
+  { Link::kWaitingBytes } -> std::convertible_to<std::size_t>;
   /// Takes as many of the bytes as it has room for and returns how many.
   { link.write(out) } -> std::same_as<std::size_t>;
   /// Fills in what has come and returns how many bytes.

@@ -80,8 +80,9 @@ void on_dma_0() {
   }
 }
 void on_usb() {
-  board.usb().on_interrupt();
-  board.wake();
+  if (board.usb().on_interrupt()) {
+    board.wake();
+  }
 }
 void on_uart_0() {
   if (board.uart().on_interrupt()) {

@@ -55,7 +55,7 @@ class Board {
   Adc adc_;
   Emitters emitters_;
   Sampler<Emitters> sampler_{timer_, adc_, emitters_};
-  UsbSerial usb_;
+  UsbSerial usb_{timer_};
   Uart uart_{timer_};
   LightPin<kLightPin> light_;
   HardwareWatchdog watchdog_;

@@ -2,13 +2,13 @@
 // UART0 as a link: what is written waits in a ring for the transmitter (data sheet 4.2).
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "hal/concepts.hpp"
 #include "hal/interrupt_ring.hpp"
+#include "hal/progress_watch.hpp"
 #include "hal/rp2040/pins.hpp"
 #include "hal/rp2040/registers.hpp"
 #include "hal/rp2040/timer.hpp"
@@ -18,6 +18,7 @@ namespace penduline::rp2040 {
 /// 460,800 baud, 8 data bits, no parity, one stop bit, on GPIO0 (out) and GPIO1 (in).
 class Uart {
  public:
+  static constexpr std::size_t kWaitingBytes = 1024;
   explicit Uart(const Timer& timer) : timer_(timer) {}
 
   [[nodiscard]] bool start() {
@@ -52,11 +53,7 @@ class Uart {
   std::size_t read(std::span<std::uint8_t> bytes) { return take_bytes(in_, bytes); }
 
   /// Its transmitter needs nobody at the other end: a second without a byte out is a fault.
-  [[nodiscard]] bool stuck() const {
-    constexpr std::uint32_t kPatienceUs = 1'000'000;
-    return !out_.empty() &&
-           static_cast<std::uint32_t>(timer_.now_us()) - last_sent_us_.load(kRelaxed) > kPatienceUs;
-  }
+  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_.now_us()); }
   [[nodiscard]] bool asks_for_bootloader() const { return false; }
 
   /// True where bytes have come or there is room for others to go.
@@ -74,7 +71,6 @@ class Uart {
   }
 
  private:
-  static constexpr auto kRelaxed = std::memory_order_relaxed;
   static constexpr std::uint32_t kReceived = 1U << 4U;
   static constexpr std::uint32_t kSent = 1U << 5U;
   static constexpr std::uint32_t kReceiveTimeout = 1U << 6U;
@@ -89,7 +85,7 @@ class Uart {
       }
       reg(uart::kData) = *slot;
       out_.drop();
-      last_sent_us_.store(static_cast<std::uint32_t>(timer_.now_us()), kRelaxed);
+      sent_.note(timer_.now_us());
     }
     reg(uart::kInterruptMask) = kReceived | kReceiveTimeout | (out_.empty() ? 0 : kSent);
   }
@@ -97,7 +93,7 @@ class Uart {
   const Timer& timer_;
   InterruptRing<std::uint8_t, 128> out_;
   InterruptRing<std::uint8_t, 128> in_;
-  std::atomic<std::uint32_t> last_sent_us_{0};  ///< the clock's low word
+  ProgressWatch sent_;
 };
 
 static_assert(ByteLink<Uart>);

@@ -15,6 +15,7 @@ inline constexpr std::uint32_t kMemory = 0x50100000;
 inline constexpr std::uint32_t kMemoryBytes = 0x1000;
 inline constexpr std::uint32_t kAddress = 0x50110000;
 inline constexpr std::uint32_t kMainCtrl = 0x50110040;
+inline constexpr std::uint32_t kFrameNumber = 0x50110048;
 inline constexpr std::uint32_t kSieCtrl = 0x5011004c;
 inline constexpr std::uint32_t kSieStatus = 0x50110050;
 inline constexpr std::uint32_t kBufferStatus = 0x50110058;
@@ -28,6 +29,7 @@ inline constexpr std::uint32_t kInterruptStatus = 0x50110098;
 inline constexpr std::uint32_t kOnBuffer = 1U << 4U;
 inline constexpr std::uint32_t kOnBusReset = 1U << 12U;
 inline constexpr std::uint32_t kOnSetup = 1U << 16U;
+inline constexpr std::uint32_t kOnFrame = 1U << 17U;
 inline constexpr std::uint32_t kBusResetSeen = 1U << 19U;
 inline constexpr std::uint32_t kSetupSeen = 1U << 17U;
 

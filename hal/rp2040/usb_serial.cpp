@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// USB requests and packets (USB 2.0 chapters 8 and 9; RP2040 data sheet 4.1.2).
+// The serial port's data and the controller's interrupts (RP2040 data sheet 4.1.2).
 #include "hal/rp2040/usb_serial.hpp"
 
 #include <algorithm>
@@ -14,30 +14,8 @@ namespace {
 using usb::Direction;
 
 constexpr std::size_t kPacketBytes = usb::kPacketBytes;
-constexpr std::uint8_t kIn = 0x80;
 
-// Standard requests (USB 2.0, table 9-4).
-constexpr std::uint8_t kGetStatus = 0;
-constexpr std::uint8_t kClearFeature = 1;
-constexpr std::uint8_t kSetFeature = 3;
-constexpr std::uint8_t kSetAddress = 5;
-constexpr std::uint8_t kGetDescriptor = 6;
-constexpr std::uint8_t kGetConfiguration = 8;
-constexpr std::uint8_t kSetConfiguration = 9;
-constexpr std::uint8_t kGetInterface = 10;
-constexpr std::uint8_t kSetInterface = 11;
-// Requests of a serial port (PSTN 1.2, table 13).
-constexpr std::uint8_t kSetLineCoding = 0x20;
-constexpr std::uint8_t kGetLineCoding = 0x21;
-constexpr std::uint8_t kSetLineState = 0x22;
-constexpr std::uint8_t kSendBreak = 0x23;
-
-constexpr std::uint8_t low_byte(std::uint16_t value) {
-  return static_cast<std::uint8_t>(value & 0xffU);
-}
-constexpr std::uint8_t high_byte(std::uint16_t value) {
-  return static_cast<std::uint8_t>(value >> 8U);
-}
+constexpr std::uint32_t kInterrupts = usb::kOnBuffer | usb::kOnBusReset | usb::kOnSetup;
 
 }  // namespace
 
@@ -61,7 +39,7 @@ bool UsbSerial::start(const std::array<std::uint8_t, kUniqueIdBytes>& unique_id)
   reg(usb::kPower) = kForceVbus;
   reg(usb::kMainCtrl) = 1;
   reg(usb::kSieCtrl) = kInterruptEachControlBuffer;
-  reg(usb::kInterruptEnable) = usb::kOnBuffer | usb::kOnBusReset | usb::kOnSetup;
+  reg(usb::kInterruptEnable) = kInterrupts;
   set_bits(usb::kSieCtrl, kPullUp);
   return true;
 }
@@ -84,7 +62,7 @@ std::size_t UsbSerial::read(std::span<std::uint8_t> bytes) {
   return given;
 }
 
-void UsbSerial::on_interrupt() {
+bool UsbSerial::on_interrupt() {
   const std::uint32_t status = rp2040::read(usb::kInterruptStatus);
   if ((status & usb::kOnBusReset) != 0) {
     reg(usb::kSieStatus) = usb::kBusResetSeen;
@@ -105,6 +83,7 @@ void UsbSerial::on_interrupt() {
     }
     if ((done & usb::buffer_bit(usb::kDataEndpoint, Direction::kIn)) != 0) {
       in_armed_ = false;
+      packet_bytes_.reset();
       send_data();
     }
     if ((done & usb::buffer_bit(usb::kDataEndpoint, Direction::kOut)) != 0) {
@@ -115,216 +94,102 @@ void UsbSerial::on_interrupt() {
     reg(usb::kSieStatus) = usb::kSetupSeen;
     on_setup();
   }
-}
-
-void UsbSerial::on_setup() {
-  std::array<std::uint8_t, 8> raw{};
-  usb::copy_out(0, raw);
-  const auto word = [&](std::size_t at) {
-    return static_cast<std::uint16_t>(raw[at] | (raw[at + 1] << 8U));
-  };
-  const Setup setup{
-      .type = raw[0], .request = raw[1], .value = word(2), .index = word(4), .length = word(6)};
-  constexpr std::uint8_t kClassMask = 0x60;
-  constexpr std::uint8_t kStandard = 0x00;
-  constexpr std::uint8_t kClass = 0x20;
-  stage_ = Stage::kIdle;
-  new_address_ = 0;
-  control_data1_ = true;  // the stage after the setup packet begins with DATA1
-  switch (setup.type & kClassMask) {
-    case kStandard:
-      return on_standard_request(setup);
-    case kClass:
-      return on_class_request(setup);
-    default:
-      return usb::stall_control();
+  if ((status & usb::kOnFrame) != 0) {
+    on_frame();
   }
-}
-
-void UsbSerial::on_standard_request(const Setup& setup) {
-  switch (setup.request) {
-    case kGetStatus:
-      reply_[0] = reply_[1] = 0;
-      return give({reply_.data(), 2}, setup);
-    case kClearFeature:
-      if (low_byte(setup.index) == (kIn | usb::kDataEndpoint)) {
-        in_data1_ = false;
-      }
-      return acknowledge();
-    case kSetFeature:
-    case kSetInterface:
-      return acknowledge();
-    case kSetAddress:
-      new_address_ = low_byte(setup.value);
-      return acknowledge();
-    case kGetDescriptor:
-      return give_descriptor(setup);
-    case kGetConfiguration:
-      reply_[0] = configured_ ? 1 : 0;
-      return give({reply_.data(), 1}, setup);
-    case kSetConfiguration:
-      if (setup.value > 1) {
-        return usb::stall_control();
-      }
-      configure(setup.value == 1);
-      return acknowledge();
-    case kGetInterface:
-      reply_[0] = 0;
-      return give({reply_.data(), 1}, setup);
-    default:
-      return usb::stall_control();
-  }
-}
-
-void UsbSerial::on_class_request(const Setup& setup) {
-  constexpr std::array<std::uint8_t, 4> k1200Baud = {0xb0, 0x04, 0, 0};
-  switch (setup.request) {
-    case kSetLineCoding:
-      stage_ = Stage::kDataOut;
-      return usb::arm(0, Direction::kOut, kPacketBytes, control_data1_);
-    case kGetLineCoding:
-      return give(line_coding_, setup);
-    case kSetLineState:
-      if ((setup.value & 1U) == 0 &&
-          std::equal(k1200Baud.begin(), k1200Baud.end(), line_coding_.begin())) {
-        touched_.store(true, std::memory_order_relaxed);
-      }
-      return acknowledge();
-    case kSendBreak:
-      return acknowledge();
-    default:
-      return usb::stall_control();
-  }
-}
-
-void UsbSerial::give_descriptor(const Setup& setup) {
-  constexpr std::uint8_t kDevice = 1;
-  constexpr std::uint8_t kConfiguration = 2;
-  constexpr std::uint8_t kString = 3;
-  switch (high_byte(setup.value)) {
-    case kDevice:
-      return give(usb::kDeviceDescriptor, setup);
-    case kConfiguration:
-      return give(usb::kConfigurationDescriptor, setup);
-    case kString:
-      return give_string(setup);
-    default:
-      return usb::stall_control();  // a device qualifier, say: we are full speed only
-  }
-}
-
-void UsbSerial::give_string(const Setup& setup) {
-  constexpr std::uint8_t kStringType = 3;
-  constexpr std::uint8_t kEnglish[] = {4, kStringType, 0x09, 0x04};
-  std::string_view text;
-  switch (low_byte(setup.value)) {
-    case 0:
-      return give(kEnglish, setup);
-    case 1:
-      text = usb::kMaker;
-      break;
-    case 2:
-      text = usb::kProduct;
-      break;
-    case 3:
-      text = {serial_number_.data(), serial_number_.size()};
-      break;
-    default:
-      return usb::stall_control();
-  }
-  const std::size_t length = 2 + 2 * text.size();
-  reply_[0] = static_cast<std::uint8_t>(length);
-  reply_[1] = kStringType;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    reply_[2 + 2 * i] = static_cast<std::uint8_t>(text[i]);
-    reply_[3 + 2 * i] = 0;
-  }
-  give({reply_.data(), length}, setup);
-}
-
-void UsbSerial::give(std::span<const std::uint8_t> reply, const Setup& setup) {
-  const std::size_t length = std::min<std::size_t>(reply.size(), setup.length);
-  // A reply that is shorter than asked for and ends with a full packet is ended by an empty one.
-  empty_packet_last_ = length < setup.length && length > 0 && length % kPacketBytes == 0;
-  to_give_ = reply.first(length);
-  stage_ = Stage::kDataIn;
-  give_next();
-}
-
-void UsbSerial::give_next() {
-  const auto packet = to_give_.first(std::min(to_give_.size(), kPacketBytes));
-  to_give_ = to_give_.subspan(packet.size());
-  if (packet.size() < kPacketBytes) {
-    empty_packet_last_ = false;
-  }
-  usb::copy_in(usb::kControlBuffer, packet);
-  usb::arm(0, Direction::kIn, packet.size(), control_data1_);
-  control_data1_ = !control_data1_;
-}
-
-/// The status stage of a request without data to the host.
-void UsbSerial::acknowledge() {
-  stage_ = Stage::kStatusIn;
-  usb::arm(0, Direction::kIn, 0, true);
-}
-
-void UsbSerial::on_control_in() {
-  if (stage_ == Stage::kStatusIn) {
-    stage_ = Stage::kIdle;
-    if (new_address_ != 0) {
-      reg(usb::kAddress) = new_address_;  // from the next transfer on, not for this one
-      new_address_ = 0;
-    }
-    return;
-  }
-  if (stage_ != Stage::kDataIn) {
-    return;
-  }
-  if (!to_give_.empty() || empty_packet_last_) {
-    give_next();
-    return;
-  }
-  stage_ = Stage::kStatusOut;
-  usb::arm(0, Direction::kOut, 0, true);
-}
-
-void UsbSerial::on_control_out() {
-  if (stage_ == Stage::kDataOut) {
-    usb::copy_out(usb::kControlBuffer, line_coding_);
-    acknowledge();
-  }
+  return (status & usb::kOnBuffer) != 0;
 }
 
 void UsbSerial::configure(bool on) {
   configured_ = on;
-  in_armed_ = out_armed_ = in_data1_ = out_data1_ = false;
   reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kIn)) = 0;
   reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kOut)) = 0;
-  if (!on) {
-    return;
+  if (on) {
+    usb::open_endpoint(usb::kNotifyEndpoint, Direction::kIn, usb::TransferType::kInterrupt,
+                       usb::kNotifyBuffer);
+    usb::open_endpoint(usb::kDataEndpoint, Direction::kIn, usb::TransferType::kBulk,
+                       usb::kInBuffer);
+    usb::open_endpoint(usb::kDataEndpoint, Direction::kOut, usb::TransferType::kBulk,
+                       usb::kOutBuffer);
   }
-  usb::open_endpoint(usb::kNotifyEndpoint, Direction::kIn, usb::TransferType::kInterrupt,
-                     usb::kNotifyBuffer);
-  usb::open_endpoint(usb::kDataEndpoint, Direction::kIn, usb::TransferType::kBulk, usb::kInBuffer);
-  usb::open_endpoint(usb::kDataEndpoint, Direction::kOut, usb::TransferType::kBulk,
-                     usb::kOutBuffer);
-  open_for_data();
+  restart_data_in();
+  restart_data_out();
+}
+
+void UsbSerial::restart_data_in() {
+  reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kIn)) = 0;
+  in_data1_ = in_armed_ = false;  // a packet that nobody has fetched is sent anew
   send_data();
 }
 
+void UsbSerial::restart_data_out() {
+  reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kOut)) = 0;
+  out_data1_ = out_armed_ = false;
+  open_for_data();
+}
+
+/// Has the next packet ready and hands it to the controller, or has the next frame do so.
 void UsbSerial::send_data() {
-  if (!configured_ || in_armed_) {
+  if (!configured_ || in_armed_ || !prepare_packet()) {
     return;
   }
-  std::array<std::uint8_t, kPacketBytes> packet{};
-  const std::size_t length = take_bytes(out_, packet);
-  if (length == 0) {
+  // A bus error at a packet near its frame's end can hang the controller (RP2040-E15). The rest of
+  // the frame is a margin for an interrupt that came late.
+  constexpr std::uint32_t kUseOfAFrameUs = 700;
+  if (now_us() - frame_began_us_ > kUseOfAFrameUs) {
+    await_frame();
     return;
   }
   in_armed_ = true;
-  usb::copy_in(usb::kInBuffer, {packet.data(), length});
-  usb::arm(usb::kDataEndpoint, Direction::kIn, length, in_data1_);
+  usb::arm(usb::kDataEndpoint, Direction::kIn, *packet_bytes_, in_data1_);
   in_data1_ = !in_data1_;
+}
+
+/// Puts what waits into the controller's memory; false where nothing does. After a full packet that
+/// was the last an empty one tells the host so: it would wait for more before it hands it on.
+bool UsbSerial::prepare_packet() {
+  if (!packet_bytes_) {
+    std::array<std::uint8_t, kPacketBytes> packet{};
+    const std::size_t length = take_bytes(out_, packet);
+    if (length == 0 && !was_full_) {
+      return false;
+    }
+    usb::copy_in(usb::kInBuffer, {packet.data(), length});
+    was_full_ = length == kPacketBytes;
+    packet_bytes_ = length;
+  }
+  return true;
+}
+
+void UsbSerial::await_frame() {
+  rp2040::read(usb::kFrameNumber);  // forgets the frames that have begun already
+  if (!awaits_frame_.load(std::memory_order_relaxed)) {
+    frames_.note(timer_.now_us());
+    awaits_frame_.store(true, std::memory_order_relaxed);
+  }
+  asked_us_ = now_us();
+  reg(usb::kInterruptEnable) = kInterrupts | usb::kOnFrame;
+}
+
+void UsbSerial::on_frame() {
+  // A frame comes within a millisecond. What took longer, was perhaps told late: by how much?
+  constexpr std::uint32_t kLongestWaitUs = 1100;
+  rp2040::read(usb::kFrameNumber);  // ends the interrupt (table 411)
+  frames_.note(timer_.now_us());
+  if (now_us() - asked_us_ > kLongestWaitUs) {
+    asked_us_ = now_us();
+    return;
+  }
+  awaits_frame_.store(false, std::memory_order_relaxed);
+  reg(usb::kInterruptEnable) = kInterrupts;
+  frame_began_us_ = now_us();
+  send_data();
+}
+
+bool UsbSerial::stuck() const {
+  constexpr std::uint32_t kSuspended = 1U << 4U;
+  return awaits_frame_.load(std::memory_order_relaxed) && frames_.overdue(timer_.now_us()) &&
+         (rp2040::read(usb::kSieStatus) & kSuspended) == 0;
 }
 
 void UsbSerial::take_data() {

@@ -16,6 +16,8 @@ namespace penduline::sim {
 /// It never waits, and does not own what it reads and writes.
 class FileLink {
  public:
+  static constexpr std::size_t kWaitingBytes = 2048;
+
   FileLink(int in, int out) : in_(in), out_(out) {}
 
   std::size_t write(std::span<const std::uint8_t> bytes);

@@ -2,13 +2,13 @@
 // USART2 as a link, a Nucleo's ST-Link makes it a USB serial port (RM0090 30).
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "hal/concepts.hpp"
 #include "hal/interrupt_ring.hpp"
+#include "hal/progress_watch.hpp"
 #include "hal/stm32f4/interrupts.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/registers.hpp"
@@ -19,6 +19,7 @@ namespace penduline::stm32f4 {
 /// 460,800 baud, 8 data bits, no parity, one stop bit, on PA2 (out) and PA3 (in).
 class Uart {
  public:
+  static constexpr std::size_t kWaitingBytes = 2048;
   static constexpr std::uint32_t kBaud = 460'800;
 
   explicit Uart(const Timer& timer) : timer_(timer) {}
@@ -47,11 +48,7 @@ class Uart {
   std::size_t read(std::span<std::uint8_t> bytes) { return take_bytes(in_, bytes); }
 
   /// Its transmitter needs nobody at the other end: a second without a byte out is a fault.
-  [[nodiscard]] bool stuck() const {
-    constexpr std::uint32_t kPatienceUs = 1'000'000;
-    return !out_.empty() &&
-           static_cast<std::uint32_t>(timer_.now_us()) - last_sent_us_.load(kRelaxed) > kPatienceUs;
-  }
+  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_.now_us()); }
   [[nodiscard]] bool asks_for_bootloader() const { return false; }
 
   /// One byte each way at most; while there is more to do the interrupt comes again.
@@ -70,7 +67,6 @@ class Uart {
   }
 
  private:
-  static constexpr auto kRelaxed = std::memory_order_relaxed;
   static constexpr std::uint32_t kOverrun = 1U << 3U;           ///< of the status
   static constexpr std::uint32_t kReceived = 1U << 5U;          ///< of the status
   static constexpr std::uint32_t kTransmitterEmpty = 1U << 7U;  ///< of the status
@@ -86,7 +82,7 @@ class Uart {
       }
       reg(usart2::kData) = *slot;
       out_.drop();
-      last_sent_us_.store(static_cast<std::uint32_t>(timer_.now_us()), kRelaxed);
+      sent_.note(timer_.now_us());
       status = stm32f4::read(usart2::kStatus);
     }
     reg(usart2::kCtrl1) = kOnBothWays | (out_.empty() ? 0 : kInterruptWhenEmpty);
@@ -95,7 +91,7 @@ class Uart {
   const Timer& timer_;
   InterruptRing<std::uint8_t, 256> out_;
   InterruptRing<std::uint8_t, 256> in_;
-  std::atomic<std::uint32_t> last_sent_us_{0};  ///< the clock's low word
+  ProgressWatch sent_;
 };
 
 static_assert(ByteLink<Uart>);

@@ -4,8 +4,11 @@
 import { control, enumerate, request } from './usb_control.mjs';
 import { UsbHost } from './usb_host.mjs';
 
+const kInterfaceOut = 1, kEndpointOut = 2, kClearFeature = 1, kSetInterface = 11;
 const kClassInterfaceOut = 0x21, kClassInterfaceIn = 0xa1;
 const kSetLineCoding = 0x20, kGetLineCoding = 0x21, kSetControlLineState = 0x22;
+const kMaxPacket = 64;
+const kTransferBytes = 128; // of one read by Linux's cdc_acm, handed on when it is full or a packet is short
 const kDeadline = 1; // second of virtual time for a control transfer or to attach
 
 export class CdcPort {
@@ -14,6 +17,7 @@ export class CdcPort {
     this.emulator = emulator;
     this.reading = true;
     this.received = [];
+    this.gathered = []; // of the read that is not over yet
     this.pendingWrites = 0;
     this.device = null; // what enumeration found, null while there is none
     this.#follow();
@@ -95,6 +99,34 @@ export class CdcPort {
     this.host.plug();
   }
 
+  /** The host stops its frames; the device sees a bus that is suspended. */
+  suspend() {
+    this.stopReading();
+    this.host.suspend();
+  }
+
+  resume() {
+    this.host.resume();
+    this.resumeReading();
+  }
+
+  /** The device's controller hangs (RP2040-E15): it sees no frames, and no end of them either. */
+  hang() {
+    this.stopReading();
+    this.host.frames.stop();
+  }
+
+  /** Clears the halt of both data endpoints, as programs do when they open a device: packets begin with DATA0. */
+  clearHalts() {
+    const { data } = this.#endpoints();
+    for (const endpoint of [data.in | 0x80, data.out]) this.#control(request(kEndpointOut, kClearFeature, 0, endpoint, 0));
+  }
+
+  /** Chooses the data interface's only setting, which begins with DATA0, too. */
+  setInterface() {
+    this.#control(request(kInterfaceOut, kSetInterface, 0, 1, 0));
+  }
+
   /** A control transfer, run to its end. */
   controlTransfer(packet, data) {
     return this.#control(packet, data);
@@ -114,6 +146,7 @@ export class CdcPort {
   #forget() {
     this.device = null;
     this.waiting = null;
+    this.gathered = [];
     this.pendingWrites = 0;
   }
 
@@ -123,9 +156,17 @@ export class CdcPort {
       this.waiting = null;
       if (result.status === 'stall') this.host.chip.report('USB: bulk IN endpoint stalled');
       if (result.status !== 'ok') return;
-      this.received.push(...result.data);
+      this.#gather(result.data);
       if (this.reading) this.#readMore();
     });
+  }
+
+  /** USB 2.0 sec. 5.8.3: a short packet, be it empty, ends a transfer; a full one does not. */
+  #gather(packet) {
+    this.gathered.push(...packet);
+    if (packet.length < kMaxPacket || this.gathered.length >= kTransferBytes) {
+      this.received.push(...this.gathered.splice(0));
+    }
   }
 
   /** The bulk endpoints' numbers, from the configuration descriptor. */

@@ -113,6 +113,7 @@ const kUsb = {
   no_strings: /descriptor 3.1 refused/,
   no_configuration: /standard request 9 refused/,
   stalled_bulk: /bulk IN endpoint stalled/,
+  late_in_frame: /armed in the last fifth of a frame/,
 };
 
 /** Enumerates, asks for a descriptor that full-speed devices refuse, and moves data both ways. */

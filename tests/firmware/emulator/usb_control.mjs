@@ -2,7 +2,7 @@
 // Control transfers (USB 2.0 sec. 8.5.3) and enumeration (sec. 9.1.2) on the strict host.
 
 const kDirectionIn = 0x80, kMaxPacket = 64;
-const kClearFeature = 1, kSetAddress = 5, kGetDescriptor = 6, kSetConfiguration = 9;
+const kClearFeature = 1, kSetAddress = 5, kGetDescriptor = 6, kSetConfiguration = 9, kSetInterface = 11;
 const kDevice = 1, kConfiguration = 2, kString = 3;
 
 /** A SETUP packet. */
@@ -53,6 +53,7 @@ export function control(host, packet, out, done) {
 function settle(host, [type, code, value, , index]) {
   if (type === 0 && code === kSetAddress) host.address = value;
   if (type === 0 && code === kSetConfiguration) host.resetToggles();
+  if (type === 1 && code === kSetInterface) host.resetToggles();
   if (type === 2 && code === kClearFeature) host.resetToggles([index]);
 }
 

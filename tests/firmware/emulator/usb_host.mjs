@@ -9,6 +9,8 @@ const kConnected = 1 << 16, kSuspended = 1 << 4; // SIE_STATUS
 const kMaxPacket = 64;
 const kResetRecoveryNanos = 10e6; // USB 2.0 sec. 7.1.7.5
 const kTransactionNanos = 50e3; // a 64-byte transaction and its turn on the bus
+const kFrameNanos = 1e6;
+const kHangingNanos = 800e3; // of a frame; what is sent after it can hang the controller (RP2040-E15)
 const kAvailableDelayCycles = 6; // clk_sys cycles that AVAILABLE must follow the rest by: 2 of clk_usb
 
 const bufferControl = (endpoint, isIn) => 0x80 + 8 * endpoint + (isIn ? 0 : 4);
@@ -37,9 +39,11 @@ export class UsbHost {
     this.written = new Map(); // buffer control offset -> {value, cycles} of the last write without AVAILABLE
     this.onAttach = onAttach;
     this.onDetach = onDetach;
+    this.frames = new Frames(this.chip);
     this.alarm = this.chip.clock.createAlarm(() => this.#poll());
     this.recovery = this.chip.clock.createAlarm(() => {
       this.attached = true;
+      this.frames.start();
       this.onAttach();
     });
     this.#takeOver();
@@ -82,9 +86,22 @@ export class UsbHost {
   /** Pulls the plug: VBUS goes, the device sees the disconnection. */
   unplug() {
     this.plugged = false;
+    this.frames.stop();
     this.controller.sieStatus = (this.controller.sieStatus & ~kConnected) | kSuspended;
     this.controller.sieStatusUpdated();
     this.#detach();
+  }
+
+  suspend() {
+    this.frames.stop();
+    this.controller.sieStatus |= kSuspended;
+    this.controller.sieStatusUpdated();
+  }
+
+  resume() {
+    this.controller.sieStatus &= ~kSuspended;
+    this.controller.sieStatusUpdated();
+    this.frames.start();
   }
 
   /** Puts the plug back; a device with its pull-up on is reset and attaches. */
@@ -172,6 +189,9 @@ export class UsbHost {
     if (isIn && !(value & kFull)) this.#report(`${name} armed without FULL`);
     if (!isIn && value & kFull) this.#report(`${name} armed with FULL`);
     if (endpoint > 0) this.#checkEndpoint(endpoint, isIn, name);
+    if (endpoint > 0 && isIn && this.frames.phaseNanos >= kHangingNanos) {
+      this.#report(`${name} armed in the last fifth of a frame (RP2040-E15)`);
+    }
     const { clocks, pllUsb } = this.chip;
     if (!(clocks.usbCtrl & (1 << 11)) || pllUsb.frequency !== 48e6) this.#report('clk_usb is not an enabled 48 MHz');
   }
@@ -229,5 +249,69 @@ export class UsbHost {
     this.chip.usbDPRAM.set(bytes, start);
     this.#write(offset, (control & ~(kAvailable | kLength)) | kFull | bytes.length);
     return bytes;
+  }
+}
+
+/**
+ * The frames that the host begins, one a millisecond, and what the device sees of them: SOF_RD and DEV_SOF (DS 4.1.4).
+ * Their interrupt costs time in the emulator, so it comes only while the device has it enabled.
+ */
+class Frames {
+  constructor(chip) {
+    this.chip = chip;
+    this.controller = chip.usbCtrl;
+    this.firstNanos = null; // null while the bus is idle
+    this.seen = 0; // frames, when SOF_RD was last read
+    this.alarm = chip.clock.createAlarm(() => this.#look());
+    this.#takeOver();
+  }
+
+  start() {
+    this.firstNanos = this.chip.clock.nanos;
+    this.seen = 0;
+    this.#look();
+  }
+
+  stop() {
+    this.firstNanos = null;
+    this.alarm.cancel();
+  }
+
+  /** Time since the last frame began; 0 while there are none. */
+  get phaseNanos() {
+    return this.firstNanos === null ? 0 : (this.chip.clock.nanos - this.firstNanos) % kFrameNanos;
+  }
+
+  get #begun() {
+    return this.firstNanos === null ? 0 : 1 + Math.floor((this.chip.clock.nanos - this.firstNanos) / kFrameNanos);
+  }
+
+  #takeOver() {
+    const kSofRead = 0x48, kEnable = 0x90;
+    const { controller } = this;
+    const read = controller.readUint32.bind(controller);
+    controller.readUint32 = (offset) => {
+      if (offset !== kSofRead) return read(offset);
+      this.seen = this.#begun;
+      this.#look();
+      return this.#begun & 0x7ff;
+    };
+    const write = controller.writeUint32.bind(controller);
+    controller.writeUint32 = (offset, value) => {
+      write(offset, value);
+      if (offset === kEnable) this.#look();
+    };
+  }
+
+  /** Raises the interrupt where a frame has begun that nobody has read, else waits for the next. */
+  #look() {
+    const kDeviceSof = 1 << 17;
+    const { controller } = this;
+    const unread = this.#begun > this.seen;
+    controller.intRaw = unread ? controller.intRaw | kDeviceSof : controller.intRaw & ~kDeviceSof;
+    controller.checkInterrupts();
+    if (controller.intEnable & kDeviceSof && !unread && this.firstNanos !== null) {
+      this.alarm.schedule(kFrameNanos - this.phaseNanos + 1);
+    }
   }
 }

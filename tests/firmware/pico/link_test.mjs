@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { FrameSplitter, encode, encodeBody } from '../emulator/wire.mjs';
-import { Board, Result, assertUnbroken, only, samplesOf } from './board.mjs';
+import { Board, ResetCause, Result, assertUnbroken, only, samplesOf } from './board.mjs';
 
 test('data flows whatever DTR says', () => {
   const board = new Board();
@@ -64,6 +64,55 @@ test('the host goes and comes back ten times', () => {
   assertUnbroken(samplesOf(board.run(1)).slice(-15));
   assert.equal(board.status().resets, 0);
   board.assertSound();
+});
+
+for (const [what, restart] of [['clears the halts', (port) => port.clearHalts()],
+  ['sets the interface', (port) => port.setInterface()]]) {
+  test(`a host that ${what} loses nothing and goes on with DATA0`, () => {
+    const board = new Board();
+    for (let i = 0; i < 8; i++) { // with either turn of DATA0 and DATA1, and a packet that waits
+      board.port.stopReading();
+      board.run(0.05 + 0.013 * i);
+      restart(board.port);
+      board.port.resumeReading();
+      assert.equal(board.command('AskHello').reply.result, Result.done);
+    }
+    board.assertSound();
+    assert.equal(board.status().dropped_frames, 0);
+  });
+}
+
+test('whatever its length, what the board says is handed on at once', () => {
+  const board = new Board();
+  board.run(0.2);
+  board.command('SetRate', { rate_millihz: 1_000 });
+  board.run(0.1);
+  for (let count = 1; count <= 40; count++) {
+    board.port.stopReading(); // so that the answers wait for each other and fill their packets
+    for (let i = 0; i < count; i++) board.port.write(encode('Ping', { token: i }));
+    board.run(0.02);
+    board.port.resumeReading();
+    assert.equal(only('Pong', board.run(0.02)).length, count);
+  }
+  board.assertSound();
+});
+
+test('a suspended bus is no fault, one that has stopped is: the watchdog begins anew', () => {
+  const board = new Board();
+  board.run(1);
+  board.port.suspend();
+  board.run(20);
+  assert.equal(board.emulator.resets, 0);
+  board.port.resume();
+  board.run(1);
+  board.assertSound();
+  board.port.hang();
+  board.run(10);
+  assert.equal(board.emulator.resets, 1);
+  board.port.resumeReading();
+  board.port.attach();
+  board.run(1);
+  assert.equal(board.status().reset_cause, ResetCause.watchdog);
 });
 
 test('a ping is answered by the clock', () => {

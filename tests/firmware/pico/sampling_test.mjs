@@ -110,19 +110,19 @@ test('a window that an interrupt lock swallowed is a gap of seq, flagged and cou
   const board = new Board();
   board.run(0.2);
   board.command('SetRate', { rate_millihz: 1_000_000 });
-  board.run(0.05);
+  const before = samplesOf(board.run(0.05));
   // Erasing the store keeps interrupts off for as long as the flash takes.
   const { messages } = board.command('EraseRig');
-  const samples = samplesOf([...messages, ...board.run(0.2)]);
+  const samples = [...before.slice(-1), ...samplesOf([...messages, ...board.run(0.2)])];
   const gaps = samples.slice(1).map((sample, i) => sample.seq - samples[i].seq - 1n);
   gaps.forEach((lost, i) => assert.equal((samples[i + 1].flags & kOverrun) !== 0, lost > 0n));
   const after = gaps.findIndex((lost) => lost > 0n) + 1;
   assert.ok(gaps[after - 1] > 30n, 'the lock was shorter than thought');
   assert.equal(BigInt(board.status().overruns), gaps.reduce((sum, lost) => sum + lost, 0n));
-  // The first one is late by less than a period; soon they are in step again.
+  // The first one is late by a period at most; soon they are in step again.
   const lateOf = (sample) => sample.t_us - samples[0].t_us - (sample.seq - samples[0].seq) * 1000n;
   assert.ok(samples[after].flags & kLate);
-  assert.ok(lateOf(samples[after]) > 125n && lateOf(samples[after]) < 1000n);
+  assert.ok(lateOf(samples[after]) > 125n && lateOf(samples[after]) <= 1020n);
   samples.slice(after + 2).forEach((sample) => assert.ok(lateOf(sample) <= 20n && sample.flags === 0));
 });
 

@@ -18,7 +18,8 @@ constexpr Word kDpram = 0x50100000, kUsb = 0x50110000;
 constexpr Word kMainControl = kUsb + 0x40, kSieControl = kUsb + 0x4c, kSieStatus = kUsb + 0x50;
 constexpr Word kBufferStatus = kUsb + 0x58, kStallArm = kUsb + 0x68, kMuxing = kUsb + 0x74,
                kPower = kUsb + 0x78;
-constexpr Word kUsbEnables = kUsb + 0x90, kUsbStatus = kUsb + 0x98;
+constexpr Word kFrameNumber = kUsb + 0x48, kUsbEnables = kUsb + 0x90, kUsbStatus = kUsb + 0x98;
+constexpr Word kEnables = 1u << 4 | 1u << 12 | 1u << 16, kOnFrame = 1u << 17;
 constexpr Word kFull = 1u << 15, kData1 = 1u << 13, kStall = 1u << 11, kAvailable = 1u << 10;
 constexpr Word kControlBuffer = 0x100, kInBuffer = 0x1c0, kOutBuffer = 0x200;
 
@@ -102,6 +103,21 @@ static void send_count() {
   device.in_toggle ^= 1;
 }
 
+// Data goes out at the beginning of a frame only (RP2040-E15).
+static void await_frame() {
+  if (wrong(Mistake::late_in_frame))
+    return send_count();
+  read(kFrameNumber);
+  write(kUsbEnables, kEnables | kOnFrame);
+}
+
+static void on_frame() {
+  read(kFrameNumber);
+  write(kUsbEnables, kEnables);
+  if (device.configured)
+    send_count();
+}
+
 static void configure() {
   const Word enable = wrong(Mistake::no_endpoint_enable) ? 1u << 29 : 1u << 31 | 1u << 29;
   const Word buffers = wrong(Mistake::double_buffer) ? enable | 1u << 30 : enable;
@@ -111,7 +127,7 @@ static void configure() {
   device.in_toggle = device.out_toggle = 0;
   device.configured = true;
   arm_out();
-  send_count();
+  await_frame();
 }
 
 static void on_descriptor_request(Word kind, Word index, Word length) {
@@ -198,6 +214,8 @@ extern "C" void on_usb() {
     write(kSieStatus, 1u << 17);
     on_setup();
   }
+  if (status & kOnFrame)
+    on_frame();
   if (!(status & 1u << 4))
     return;
   const Word buffers = read(kBufferStatus);
@@ -207,7 +225,7 @@ extern "C" void on_usb() {
   if (buffers & 2u)
     on_control_received();
   if (buffers & 1u << 4 && device.configured)
-    send_count();
+    await_frame();
   if (buffers & 1u << 5 && device.configured)
     on_received();
 }
@@ -225,7 +243,7 @@ int main() {
   if (!wrong(Mistake::no_controller))
     write(kMainControl, 1);
   write(kSieControl, 1u << 29);
-  write(kUsbEnables, 1u << 4 | 1u << 12 | 1u << 16);
+  write(kUsbEnables, kEnables);
   enable_interrupt(5);
   if (!wrong(Mistake::no_pull_up))
     set_bits(kSieControl, 1u << 16);

@@ -27,6 +27,7 @@ enum class Mistake {
   no_strings,
   no_configuration,
   stalled_bulk,
+  late_in_frame,
 };
 
 struct Bytes {

@@ -14,6 +14,7 @@
 namespace penduline::test {
 
 struct MemoryLink {
+  static constexpr std::size_t kWaitingBytes = 2048;
   std::vector<std::uint8_t> sent{};     ///< what the firmware wrote
   std::vector<std::uint8_t> to_read{};  ///< what the firmware is still to read
   std::size_t room = kEndless;          ///< bytes that it takes until it is given more
