@@ -11,14 +11,12 @@
 #include <tuple>
 #include <utility>
 
-#include "common/pipeline.hpp"
 #include "common/wire/messages.hpp"
 #include "common/wire/sample_message.hpp"
 #include "firmware/busy_meter.hpp"
 #include "firmware/lights.hpp"
-#include "firmware/port.hpp"
-#include "firmware/rig_store.hpp"
-#include "firmware/rig_upload.hpp"
+#include "firmware/onboard_estimate.hpp"
+#include "firmware/ports.hpp"
 #include "firmware/version.hpp"
 #include "firmware/window_sample.hpp"
 #include "hal/concepts.hpp"
@@ -28,7 +26,8 @@ namespace penduline {
 template <FirmwareBoard Board>
 class Application {
  public:
-  explicit Application(Board& board) : Application(board, board.links()) {}
+  explicit Application(Board& board)
+      : board_(board), ports_(board.links()), onboard_(board.store()) {}
 
   /// Begins to sample and says who we are.
   void start() {
@@ -38,9 +37,9 @@ class Application {
     cause_ = std::exchange(record.told_cause, wire::ResetCause::kUnknown);
     cause_ = cause_ == wire::ResetCause::kUnknown ? hardware_cause : cause_;
     restarted_ = true;
-    use_stored_rig();
+    onboard_.use_stored_rig(rate_millihz());
     say_hello();
-    say_status();
+    say_status(board_.clock().now_us());
     board_.sampler().start(period_us_, mode_);
     last_window_us_ = board_.clock().now_us();
     board_.watchdog().start();
@@ -49,7 +48,7 @@ class Application {
   /// Does what is to be done now; to be called again after each interrupt.
   void step() {
     const std::uint64_t begun_us = board_.clock().now_us();
-    for_each_port([&](auto& port) {
+    ports_.for_each([&](auto& port) {
       port.receive(begun_us, [&](const wire::Frame& frame) { on_frame(port, frame); });
     });
     Window window;
@@ -58,10 +57,10 @@ class Application {
     }
     const std::uint64_t now_us = board_.clock().now_us();  // commands and windows took their time
     if (now_us - last_status_us_ >= kStatusPeriodUs) {
-      say_status();
+      say_status(now_us);
     }
     board_.indicator().set(lights_.lit(now_us));
-    for_each_port([&](auto& port) { port.pump(now_us); });
+    ports_.for_each([&](auto& port) { port.pump(now_us); });
     if (makes_progress()) {
       board_.watchdog().feed();
     }
@@ -76,24 +75,9 @@ class Application {
   }
 
  private:
-  template <class... Links>
-  Application(Board& board, std::tuple<Links&...> links)
-      : board_(board), ports_(std::get<Links&>(links)...) {}
-
   static constexpr std::uint64_t kStatusPeriodUs = 1'000'000;
   static constexpr std::uint32_t kDefaultPeriodUs = 50'000;
   static constexpr std::uint32_t kMillihzUs = 1'000'000'000;  ///< rate in mHz times period in us
-
-  template <class Visitor>
-  void for_each_port(const Visitor& visit) {
-    std::apply([&](auto&... port) { (visit(port), ...); }, ports_);
-  }
-  template <wire::Message Message>
-  void send_to_all(const Message& message) {
-    std::array<std::uint8_t, wire::kFrameBytes<Message>> frame{};
-    const std::size_t size = wire::encode_frame(message, frame);
-    for_each_port([&](auto& port) { port.send_frame({frame.data(), size}); });
-  }
 
   void on_window(const Window& window) {
     using Sampler = std::remove_cvref_t<decltype(board_.sampler())>;
@@ -105,10 +89,10 @@ class Application {
     sample.flags |= std::exchange(restarted_, false) ? flag::kRestarted : 0;
     ++samples_;
     if (const auto message = wire::sample_message_of(sample)) {
-      send_to_all(*message);
+      ports_.send(*message);
     }
-    if (pipeline_) {
-      send_to_all(wire::angles_message_of(pipeline_->update(sample)));
+    if (const auto estimate = onboard_.estimate(sample)) {
+      ports_.send(wire::angles_message_of(*estimate));
     }
   }
 
@@ -133,32 +117,34 @@ class Application {
   }
 
   /// What all ports are told; the counters of frames are each port's own.
-  [[nodiscard]] wire::Status status() {
-    const std::uint64_t now_us = board_.clock().now_us();
+  [[nodiscard]] wire::Status status(std::uint64_t now_us) {
     const CrashRecord& record = board_.crash_record();
-    last_status_us_ = now_us;
-    return {.t_us = now_us,
-            .samples = samples_,
-            .overruns = overruns_,
-            .late_max_us = static_cast<std::uint16_t>(
-                std::min<std::uint32_t>(std::exchange(late_max_us_, 0), 0xffff)),
-            .load_permille = busy_.take_permille(now_us),
-            .temperature_cdeg = board_.temperature_cdeg(),
-            .stack_free_bytes = static_cast<std::uint16_t>(board_.stack_free_bytes()),
-            .reset_cause = cause_,
-            .resets = record.resets,
-            .fault_pc = record.fault_pc,
-            .fault_line = record.fault_line,
-            .fault_file = record.fault_file,
-            .store = store_,
-            .rate_millihz = rate_millihz(),
-            .emitter_mode = mode_};
+    return {
+        .t_us = now_us,
+        .samples = samples_,
+        .overruns = overruns_,
+        .late_max_us = static_cast<std::uint16_t>(std::min<std::uint32_t>(late_max_us_, 0xffff)),
+        .load_permille = busy_.permille(now_us),
+        .temperature_cdeg = board_.temperature_cdeg(),
+        .stack_free_bytes = static_cast<std::uint16_t>(board_.stack_free_bytes()),
+        .reset_cause = cause_,
+        .resets = record.resets,
+        .fault_pc = record.fault_pc,
+        .fault_line = record.fault_line,
+        .fault_file = record.fault_file,
+        .store = onboard_.store_state(),
+        .rate_millihz = rate_millihz(),
+        .emitter_mode = mode_};
   }
 
-  void say_hello() { send_to_all(hello()); }
-  void say_status() {
-    wire::Status message = status();
-    for_each_port([&](auto& port) { send_status(port, message); });
+  void say_hello() { ports_.send(hello()); }
+  /// Says the Status of a period, and begins the next.
+  void say_status(std::uint64_t now_us) {
+    wire::Status message = status(now_us);
+    ports_.for_each([&](auto& port) { send_status(port, message); });
+    last_status_us_ = now_us;
+    late_max_us_ = 0;
+    busy_.begin(now_us);
   }
   template <class SomePort>
   void send_status(SomePort& port, wire::Status& message) {
@@ -212,7 +198,7 @@ class Application {
 
   template <class SomePort>
   wire::Result carry_out(SomePort& port, const wire::AskStatus& /*command*/) {
-    wire::Status message = status();
+    wire::Status message = status(board_.clock().now_us());
     send_status(port, message);
     return wire::Result::kDone;
   }
@@ -225,7 +211,7 @@ class Application {
     }
     period_us_ = (kMillihzUs + command.rate_millihz / 2) / command.rate_millihz;
     board_.sampler().start(period_us_, mode_);
-    use_stored_rig();  // the filter depends on the rate
+    onboard_.use_stored_rig(rate_millihz());
     return wire::Result::kDone;
   }
 
@@ -254,69 +240,17 @@ class Application {
     return wire::Result::kDone;
   }
 
-  template <class SomePort>
-  wire::Result carry_out(SomePort& /*port*/, const wire::BeginRig& command) {
-    return upload_.begin(command);
-  }
-
-  template <class SomePort>
-  wire::Result carry_out(SomePort& /*port*/, const wire::RigPart& command) {
-    return upload_.take(command);
-  }
-
-  template <class SomePort>
-  wire::Result carry_out(SomePort& /*port*/, const wire::EndRig& /*command*/) {
-    if (const wire::Result result = upload_.finish(); result != wire::Result::kDone) {
-      return result;
-    }
-    if (!is_suitable_rig(upload_.image())) {
-      return wire::Result::kInvalidRig;
-    }
-    if (!write_rig(board_.store(), upload_.image())) {
-      return wire::Result::kStoreFailed;
-    }
-    use_stored_rig();
-    return wire::Result::kDone;
-  }
-
-  template <class SomePort>
-  wire::Result carry_out(SomePort& /*port*/, const wire::EraseRig& /*command*/) {
-    const bool erased = board_.store().replace({});
-    use_stored_rig();
-    return erased ? wire::Result::kDone : wire::Result::kStoreFailed;
-  }
-
-  /// Whether a rig is one of this board's two sensors.
-  [[nodiscard]] static bool suits(const std::optional<Rig<float>>& rig) {
-    return rig && rig->layout.count == kChannels;
-  }
-
-  /// Not inline, so that its rig is off the stack when the stored one is read.
-  [[gnu::noinline]] static bool is_suitable_rig(std::span<const std::uint8_t> image) {
-    return suits(wire::decode_rig(image));
-  }
-
-  void use_stored_rig() {
-    const StoredRig stored = read_rig(board_.store().contents());
-    store_ = stored.state == wire::StoreState::kValid && !suits(stored.rig)
-                 ? wire::StoreState::kDamaged
-                 : stored.state;
-    pipeline_.reset();
-    if (store_ == wire::StoreState::kValid) {
-      pipeline_.emplace(
-          *stored.rig,
-          Acquisition<float>{.rate_hz = static_cast<float>(rate_millihz()) / 1000,
-                             .full_scale_counts = kFullScaleCounts,
-                             .reference_v = static_cast<float>(Board::kReferenceUv) / 1e6F,
-                             .sensor_count = kChannels});
-    }
+  /// The commands for a rig.
+  template <class SomePort, class Command>
+  wire::Result carry_out(SomePort& /*port*/, const Command& command) {
+    return onboard_.carry_out(command);
   }
 
   /// Whether windows come as they should and no link has stopped.
   [[nodiscard]] bool makes_progress() {
     const std::uint64_t now_us = board_.clock().now_us();
     bool progress = now_us - last_window_us_ < kStatusPeriodUs + 2 * std::uint64_t{period_us_};
-    for_each_port([&](auto& port) { progress = progress && !port.link().stuck(); });
+    ports_.for_each([&](auto& port) { progress = progress && !port.link().stuck(); });
     return progress;
   }
 
@@ -328,7 +262,7 @@ class Application {
   }
 
   void leave_if_asked(std::uint64_t now_us) {
-    for_each_port([&](auto& port) {
+    ports_.for_each([&](auto& port) {
       if (!leaving_to_ && port.link().asks_for_bootloader()) {
         ask_to_leave(wire::RebootTarget::kBootloader);
       }
@@ -344,15 +278,8 @@ class Application {
     }
   }
 
-  template <class Tuple>
-  struct PortsOf;
-  template <class... Links>
-  struct PortsOf<std::tuple<Links&...>> {
-    using Type = std::tuple<Port<Links>...>;
-  };
-
   Board& board_;
-  typename PortsOf<decltype(std::declval<Board&>().links())>::Type ports_;
+  Ports<decltype(std::declval<Board&>().links())> ports_;
   std::uint32_t period_us_ = kDefaultPeriodUs;
   wire::EmitterMode mode_ = wire::EmitterMode::kSwitched;
   std::uint64_t next_seq_ = 0;
@@ -363,9 +290,7 @@ class Application {
   std::uint64_t last_status_us_ = 0;
   wire::ResetCause cause_ = wire::ResetCause::kUnknown;
   bool restarted_ = false;
-  wire::StoreState store_ = wire::StoreState::kEmpty;
-  std::optional<Pipeline<float>> pipeline_;
-  RigUpload upload_;
+  OnboardEstimate<Board> onboard_;
   BusyMeter busy_;
   Lights lights_;
   std::optional<wire::RebootTarget> leaving_to_;

@@ -11,12 +11,16 @@ class BusyMeter {
  public:
   void slept(std::uint64_t from_us, std::uint64_t to_us) { asleep_us_ += to_us - from_us; }
 
-  /// The busy share since the last call, in thousandths.
-  std::uint16_t take_permille(std::uint64_t now_us) {
-    const std::uint64_t all_us = std::max<std::uint64_t>(now_us - since_us_, 1);
-    const std::uint64_t busy_us = all_us - std::min(asleep_us_, all_us);
+  /// Begins a new period.
+  void begin(std::uint64_t now_us) {
     since_us_ = now_us;
     asleep_us_ = 0;
+  }
+
+  /// The busy share since the period began, in thousandths.
+  [[nodiscard]] std::uint16_t permille(std::uint64_t now_us) const {
+    const std::uint64_t all_us = std::max<std::uint64_t>(now_us - since_us_, 1);
+    const std::uint64_t busy_us = all_us - std::min(asleep_us_, all_us);
     return static_cast<std::uint16_t>(busy_us * 1000 / all_us);
   }
 

@@ -58,7 +58,8 @@ class Port {
     constexpr int kMostPieces = 16;
     const bool deaf = now_us - last_sent_us_ > kDeafUs;
     std::array<std::uint8_t, 32> piece{};
-    for (int i = 0; i < kMostPieces && (deaf || waiting_.free_bytes() > Link::kWaitingBytes / 2); ++i) {
+    for (int i = 0; i < kMostPieces && (deaf || waiting_.free_bytes() > Link::kWaitingBytes / 2);
+         ++i) {
       const std::size_t size = link_.read(piece);
       if (size == 0) {
         return;

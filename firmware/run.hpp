@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main loop.
+// How a board's program goes on, and how it ends.
 #pragma once
 
 #include "firmware/application.hpp"
@@ -13,6 +13,14 @@ template <FirmwareBoard Board>
     application.step();
     application.sleep();
   }
+}
+
+/// For a board that cannot go on: `note` writes why into its CrashRecord for the next start.
+template <FirmwareBoard Board, class Note>
+[[noreturn]] void restart_after(Board& board, const Note& note) {
+  note(board.crash_record());
+  board.resets().restart();
+  __builtin_unreachable();
 }
 
 }  // namespace penduline

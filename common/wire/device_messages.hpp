@@ -114,9 +114,10 @@ struct Status {
         Field{"bad_frames", &Status::bad_frames, "frames received damaged"},
         Field{"overruns", &Status::overruns, "windows in which conversions were lost"},
         Field{"late_max_us", &Status::late_max_us,
-              "worst lateness of a window's first conversion since the last `Status`"},
+              "worst lateness of a window's first conversion since the last `Status` that was not "
+              "asked for"},
         Field{"load_permille", &Status::load_permille,
-              "the main loop's busy time since the last `Status`"},
+              "the main loop's busy time since the last `Status` that was not asked for"},
         Field{"temperature_cdeg", &Status::temperature_cdeg,
               "the chip's, in hundredths of a degree Celsius; 0x7fff unknown"},
         Field{"stack_free_bytes", &Status::stack_free_bytes, "stack that was never used"},

@@ -21,15 +21,11 @@ void run_program() {
 }
 
 void on_fault(std::uint32_t pc) {
-  nucleo().crash_record().note_fault(pc);
-  nucleo().resets().restart();
-  __builtin_unreachable();
+  restart_after(nucleo(), [&](CrashRecord& record) { record.note_fault(pc); });
 }
 
 void on_failed_assertion(const char* file, std::uint16_t line) {
-  nucleo().crash_record().note_assertion(file, line);
-  nucleo().resets().restart();
-  __builtin_unreachable();
+  restart_after(nucleo(), [&](CrashRecord& record) { record.note_assertion(file, line); });
 }
 
 }  // namespace penduline

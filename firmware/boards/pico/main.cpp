@@ -21,15 +21,11 @@ void run_program() {
 }
 
 void on_fault(std::uint32_t pc) {
-  pico().crash_record().note_fault(pc);
-  pico().resets().restart();
-  __builtin_unreachable();
+  restart_after(pico(), [&](CrashRecord& record) { record.note_fault(pc); });
 }
 
 void on_failed_assertion(const char* file, std::uint16_t line) {
-  pico().crash_record().note_assertion(file, line);
-  pico().resets().restart();
-  __builtin_unreachable();
+  restart_after(pico(), [&](CrashRecord& record) { record.note_assertion(file, line); });
 }
 
 }  // namespace penduline

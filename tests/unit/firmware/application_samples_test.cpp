@@ -151,5 +151,22 @@ TEST_CASE("How late a window began is told once", "[application]") {
   CHECK(late_us[2] == 0);
 }
 
+TEST_CASE("A Status that is asked for takes nothing from the one that is due", "[application]") {
+  BoardUnderTest board;
+  board.start();
+  board.run_us(30'000);
+  board.send_bytes(frame_of(wire::EraseRig{}));
+  board.run_us(170'000);
+  board.forget();
+  board.send_bytes(frame_of(wire::AskStatus{}));
+  board.run_us(10'000);
+  REQUIRE(board.all<wire::Status>().size() == 1);
+  const std::uint16_t asked_us = board.last<wire::Status>().late_max_us;
+  CHECK(asked_us >= 30'000);
+  board.run_us(kSecondUs);
+  REQUIRE(board.all<wire::Status>().size() == 2);
+  CHECK(board.last<wire::Status>().late_max_us == asked_us);
+}
+
 }  // namespace
 }  // namespace penduline::test

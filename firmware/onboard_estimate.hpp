@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The angles that the board itself finds, and the rig that it needs for them: uploaded, stored,
+// used.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "common/estimate.hpp"
+#include "common/pipeline.hpp"
+#include "common/wire/commands.hpp"
+#include "common/wire/rig_image.hpp"
+#include "firmware/rig_store.hpp"
+#include "firmware/rig_upload.hpp"
+#include "firmware/window_sample.hpp"
+#include "hal/concepts.hpp"
+
+namespace penduline {
+
+template <FirmwareBoard Board>
+class OnboardEstimate {
+ public:
+  using BoardStore = std::remove_cvref_t<decltype(std::declval<Board&>().store())>;
+
+  explicit OnboardEstimate(BoardStore& store) : store_(store) {}
+
+  /// Reads the store anew. `rate_millihz` is the rate of the samples to come, on which the filter
+  /// depends.
+  void use_stored_rig(std::uint32_t rate_millihz) {
+    rate_millihz_ = rate_millihz;
+    const StoredRig stored = read_rig(store_.contents());
+    state_ = stored.state == wire::StoreState::kValid && !suits(stored.rig)
+                 ? wire::StoreState::kDamaged
+                 : stored.state;
+    pipeline_.reset();
+    if (state_ == wire::StoreState::kValid) {
+      pipeline_.emplace(
+          *stored.rig,
+          Acquisition<float>{.rate_hz = static_cast<float>(rate_millihz) / 1000,
+                             .full_scale_counts = kFullScaleCounts,
+                             .reference_v = static_cast<float>(Board::kReferenceUv) / 1e6F,
+                             .sensor_count = kChannels});
+    }
+  }
+
+  [[nodiscard]] wire::StoreState store_state() const { return state_; }
+
+  /// The estimate of a sample; none without a rig.
+  [[nodiscard]] std::optional<Estimate<float>> estimate(const Sample& sample) {
+    return pipeline_ ? std::optional(pipeline_->update(sample)) : std::nullopt;
+  }
+
+  wire::Result carry_out(const wire::BeginRig& command) { return upload_.begin(command); }
+  wire::Result carry_out(const wire::RigPart& command) { return upload_.take(command); }
+  wire::Result carry_out(const wire::EndRig& /*command*/) {
+    if (const wire::Result result = upload_.finish(); result != wire::Result::kDone) {
+      return result;
+    }
+    if (!is_suitable_rig(upload_.image())) {
+      return wire::Result::kInvalidRig;
+    }
+    if (!write_rig(store_, upload_.image())) {
+      return wire::Result::kStoreFailed;
+    }
+    use_stored_rig(rate_millihz_);
+    return wire::Result::kDone;
+  }
+  wire::Result carry_out(const wire::EraseRig& /*command*/) {
+    const bool erased = store_.replace({});
+    use_stored_rig(rate_millihz_);
+    return erased ? wire::Result::kDone : wire::Result::kStoreFailed;
+  }
+
+ private:
+  /// Whether a rig is one of this board's two sensors.
+  [[nodiscard]] static bool suits(const std::optional<Rig<float>>& rig) {
+    return rig && rig->layout.count == kChannels;
+  }
+
+  /// Not inline, so that its rig is off the stack when the stored one is read.
+  [[gnu::noinline]] static bool is_suitable_rig(std::span<const std::uint8_t> image) {
+    return suits(wire::decode_rig(image));
+  }
+
+  BoardStore& store_;
+  std::uint32_t rate_millihz_ = 0;
+  wire::StoreState state_ = wire::StoreState::kEmpty;
+  std::optional<Pipeline<float>> pipeline_;
+  RigUpload upload_;
+};
+
+}  // namespace penduline
