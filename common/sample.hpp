@@ -44,6 +44,8 @@ struct Acquisition {
   Scalar reference_v = Scalar(3.3);
   std::size_t sensor_count = 2;
 
+  bool operator==(const Acquisition&) const = default;
+
   /// The nominal period, rounded; of a rate of 1 mHz or more it fits 32 bits.
   [[nodiscard]] constexpr std::int64_t period_us() const {
     return static_cast<std::int32_t>(Scalar(1e6) / rate_hz + Scalar(0.5));

@@ -4,24 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "hal/replay/toml_text.hpp"
 
 namespace penduline {
 namespace {
 
-constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
-
 /// A header value as TOML; empty where the header does not know it.
 std::string header_value(const RecordingHeader& header, std::string_view key) {
-  // A string of JSON is one of TOML, too, and always on one line; but for the character DEL.
-  const auto quoted = [](std::string text) {
-    std::ranges::replace(text, '\x7f', '?');
-    return text.empty() ? "" : nlohmann::json(text).dump(-1, ' ', false, kReplaceBadBytes);
-  };
+  const auto quoted = [](const std::string& text) { return text.empty() ? "" : toml_quoted(text); };
   const auto number = [](double value) { return toml_text(toml::value<double>(value)); };
   if (key == kVersionKey) {
     return fmt::format("{}", kRecordingVersion);
@@ -40,6 +32,12 @@ std::string header_value(const RecordingHeader& header, std::string_view key) {
   }
   if (key == "firmware") {
     return quoted(header.firmware);
+  }
+  if (key == "serial") {
+    return quoted(header.serial);
+  }
+  if (key == "boot_id") {
+    return header.boot_id ? fmt::format("{}", *header.boot_id) : "";
   }
   return header.started;
 }

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,8 @@ struct RecordingHeader {
   std::string board;     ///< "" where unknown
   std::string firmware;  ///< "" where unknown
   std::string started;   ///< RFC 3339 in UTC; "" where unknown or simulated
+  std::string serial{};  ///< the board's own number in hexadecimal; "" where unknown
+  std::optional<std::uint32_t> boot_id{};
 };
 
 inline constexpr std::string_view kVersionKey = "penduline_recording";
@@ -41,7 +45,9 @@ inline constexpr std::array kHeaderKeys = {
     HeaderKeyDescription{"reference_v", true, "the ADC's reference voltage"},
     HeaderKeyDescription{"board", false, "name of the board"},
     HeaderKeyDescription{"firmware", false, "version of the firmware"},
-    HeaderKeyDescription{"started", false, "host time of the first sample, UTC"},
+    HeaderKeyDescription{"started", false, "host time at which the file began, UTC"},
+    HeaderKeyDescription{"serial", false, "the board's own number"},
+    HeaderKeyDescription{"boot_id", false, "another number after every start of the board"},
 };
 
 /// What a column holds.

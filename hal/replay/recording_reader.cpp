@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading recordings: the header by toml++, the rows by hand because there are millions of them.
+// Reading recordings: rows by hand because there are millions of them.
 #include "hal/replay/recording_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "hal/replay/cells.hpp"
-#include "hal/replay/toml_text.hpp"
+#include "hal/replay/recording_header.hpp"
 
 namespace penduline {
 namespace {
 
 constexpr std::size_t kMaxHeaderLines = 1000;
-constexpr double kLeastReferenceV = 1e-6;
-constexpr double kMostReferenceV = 1e6;
+/// What the head of a recording that was joined to another begins with.
+constexpr std::string_view kJoinedStart = "# penduline_recording = ";
 /// What every reader of CSV and JSON keeps exactly, for they know doubles only.
 constexpr std::uint64_t kLargestExact = (std::uint64_t{1} << 53U) - 1;
 constexpr std::uint64_t kDeviceFlags = 0xff;
@@ -120,20 +117,21 @@ tl::expected<RecordingReader, Error> RecordingReader::open(const std::string& pa
   return reader;
 }
 
-tl::expected<void, Error> RecordingReader::read_header() {
-  std::string header;
+tl::expected<void, Error> RecordingReader::read_header(std::string header) {
+  const std::uint64_t first_line = std::max(lines_.line_number(), std::uint64_t{1});
   for (std::size_t count = 0; count < kMaxHeaderLines; ++count) {
     const auto outcome = lines_.next();
     if (!outcome) {
       return tl::unexpected(outcome.error());
     }
     if (*outcome == LineReader::Outcome::kEndOfFile) {
-      return count == 0 ? failure(fmt::format("{}: the file is empty, expected a recording that "
-                                              "begins with '# {} = {}'",
-                                              lines_.name(), kVersionKey, kRecordingVersion))
-                        : failure(fmt::format("{}: the file ends after line {}, in its header; "
-                                              "expected the column names seq,t_us,...",
-                                              lines_.name(), lines_.line_number()));
+      return count == 0 && header.empty()
+                 ? failure(fmt::format("{}: the file is empty, expected a recording that "
+                                       "begins with '# {} = {}'",
+                                       lines_.name(), kVersionKey, kRecordingVersion))
+                 : failure(fmt::format("{}: the file ends after line {}, in its header; "
+                                       "expected the column names seq,t_us,...",
+                                       lines_.name(), lines_.line_number()));
     }
     const std::string_view line = lines_.line();
     if (line.empty() || line.starts_with('#')) {
@@ -141,70 +139,21 @@ tl::expected<void, Error> RecordingReader::read_header() {
       header += '\n';
       continue;
     }
-    if (auto parsed = parse_header(header); !parsed) {
-      return parsed;
+    if (header.find_first_not_of('\n') == std::string::npos) {
+      return failure(
+          fmt::format("{}: found '{}', expected a recording that begins with '# {} = {}' "
+                      "(plain logs of voltages are read with --import)",
+                      lines_.place(), excerpt(line), kVersionKey, kRecordingVersion));
     }
+    auto parsed = parse_recording_header(header, lines_.name(), first_line);
+    if (!parsed) {
+      return tl::unexpected(parsed.error());
+    }
+    header_ = std::move(*parsed);
     return parse_column_names(line);
   }
   return failure(
       fmt::format("{}: the header has more than {} lines", lines_.place(), kMaxHeaderLines));
-}
-
-tl::expected<void, Error> RecordingReader::parse_header(const std::string& header) {
-  if (header.find_first_not_of('\n') == std::string::npos) {
-    return failure(
-        fmt::format("{}: found '{}', expected a recording that begins with '# {} = {}' "
-                    "(plain logs of voltages are read with --import)",
-                    lines_.place(), excerpt(lines_.line()), kVersionKey, kRecordingVersion));
-  }
-  toml::table table;
-  try {
-    table = toml::parse(header);
-  } catch (const toml::parse_error& error) {
-    return failure(fmt::format("{}:{}: the header is not TOML behind '# ': {}", lines_.name(),
-                               error.source().begin.line, error.description()));
-  }
-  const auto wrong = [&](std::string_view key, std::string_view expected) {
-    const toml::node* found = table.get(key);
-    return failure(
-        found == nullptr
-            ? fmt::format("{}: header key '{}': missing, expected {}", lines_.name(), key, expected)
-            : fmt::format("{}:{}: header key '{}': found {}, expected {}", lines_.name(),
-                          found->source().begin.line, key, toml_text(*found), expected));
-  };
-  const auto within = [&](std::string_view key, double least, double most) {
-    const auto value = table[key].value<double>();
-    return value && *value >= least && *value <= most ? value : std::nullopt;
-  };
-
-  const auto version = table[kVersionKey].value_exact<std::int64_t>();
-  if (version != kRecordingVersion) {
-    return wrong(kVersionKey, fmt::format("{}", kRecordingVersion));
-  }
-  const auto rate_hz = within("rate_hz", kSlowestHz, kFastestHz);
-  if (!rate_hz) {
-    return wrong("rate_hz", fmt::format("a rate from {} to {}", kSlowestHz, kFastestHz));
-  }
-  const auto full_scale_counts =
-      within("full_scale_counts", 1, std::numeric_limits<std::int32_t>::max());
-  if (!full_scale_counts || *full_scale_counts != std::floor(*full_scale_counts)) {
-    return wrong("full_scale_counts", "the counts at full scale, a whole number such as 65535");
-  }
-  const auto reference_v = within("reference_v", kLeastReferenceV, kMostReferenceV);
-  if (!reference_v) {
-    return wrong("reference_v",
-                 fmt::format("a voltage from {} to {}", kLeastReferenceV, kMostReferenceV));
-  }
-  header_.acquisition = {
-      .rate_hz = *rate_hz, .full_scale_counts = *full_scale_counts, .reference_v = *reference_v};
-  header_.board = table["board"].value_or(std::string());
-  header_.firmware = table["firmware"].value_or(std::string());
-  if (const auto started = table["started"].value<toml::date_time>()) {
-    std::ostringstream text;
-    text << *started;
-    header_.started = text.str();
-  }
-  return {};
 }
 
 tl::expected<void, Error> RecordingReader::parse_column_names(std::string_view line) {
@@ -233,6 +182,7 @@ tl::expected<void, Error> RecordingReader::parse_column_names(std::string_view l
 }
 
 tl::expected<bool, Error> RecordingReader::read(Sample& sample) {
+  events_.clear();
   while (true) {
     const auto outcome = lines_.next();
     if (!outcome) {
@@ -248,14 +198,54 @@ tl::expected<bool, Error> RecordingReader::read(Sample& sample) {
       return false;
     }
     const std::string_view line = lines_.line();
-    if (line.empty() || line.starts_with('#')) {
+    if (line.empty()) {
+      continue;
+    }
+    if (line.starts_with('#')) {
+      if (const auto kept = take_comment(line); !kept) {
+        return tl::unexpected(kept.error());
+      }
       continue;
     }
     if (const auto parsed = parse_row(line, sample); !parsed) {
       return tl::unexpected(parsed.error());
     }
+    sample.flags |= std::exchange(restarted_, false) ? flag::kRestarted : 0;
     return true;
   }
+}
+
+tl::expected<void, Error> RecordingReader::take_comment(std::string_view line) {
+  if (line.starts_with(kEventStart)) {
+    if (auto event = parse_event(line)) {
+      restarted_ = restarted_ || event->kind == event::kBoot;
+      events_.push_back(std::move(*event));
+    } else if (!std::exchange(complained_of_event_, true)) {
+      complaints_.push_back(
+          fmt::format("{}: {}; such lines are skipped", lines_.place(), event.error().message));
+    }
+    return {};
+  }
+  return line.starts_with(kJoinedStart) ? join(line) : tl::expected<void, Error>();
+}
+
+tl::expected<void, Error> RecordingReader::join(std::string_view line) {
+  const std::string place = lines_.place();
+  const RecordingHeader before = header_;
+  cells_.clear();
+  if (auto read = read_header(std::string(line.substr(1)) + '\n'); !read) {
+    return read;
+  }
+  if (header_.acquisition != before.acquisition) {
+    return failure(fmt::format(
+        "{}: found another recording, sampled otherwise ({} sensors at {} Hz), expected "
+        "{} sensors at {} Hz as before; replay it by itself",
+        place, header_.acquisition.sensor_count, header_.acquisition.rate_hz,
+        before.acquisition.sensor_count, before.acquisition.rate_hz));
+  }
+  restarted_ =
+      restarted_ || (header_.boot_id && before.boot_id && header_.boot_id != before.boot_id);
+  return {};
 }
 
 tl::expected<void, Error> RecordingReader::parse_row(std::string_view line, Sample& sample) const {

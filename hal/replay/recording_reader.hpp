@@ -10,6 +10,7 @@
 
 #include "common/sample.hpp"
 #include "hal/replay/line_reader.hpp"
+#include "hal/replay/recording_event.hpp"
 #include "hal/replay/recording_format.hpp"
 #include "hal/sample_source.hpp"
 
@@ -26,8 +27,13 @@ class RecordingReader {
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
 
   /// The next row. An empty or `nan` reading is a missing one; anything else that is not a row of
-  /// numbers fails, naming line and field.
+  /// numbers fails, naming line and field. The first row after a `boot` event is `restarted`.
+  /// Another recording that was joined to this one goes on where it ends, if it is sampled alike.
   tl::expected<bool, Error> read(Sample& sample);
+
+  /// The events between the row read last and the one before; at the end, those behind the last
+  /// row.
+  [[nodiscard]] const std::vector<RecordingEvent>& events() const { return events_; }
 
   /// "FILE:LINE" of the row read last.
   [[nodiscard]] std::string place() const { return lines_.place(); }
@@ -44,15 +50,21 @@ class RecordingReader {
   };
 
   explicit RecordingReader(LineReader lines) : lines_(std::move(lines)) {}
-  tl::expected<void, Error> read_header();
-  tl::expected<void, Error> parse_header(const std::string& header);
+  /// Reads up to the column names; `header` is what of it has been read.
+  tl::expected<void, Error> read_header(std::string header = "");
   tl::expected<void, Error> parse_column_names(std::string_view line);
   tl::expected<void, Error> parse_row(std::string_view line, Sample& sample) const;
+  tl::expected<void, Error> take_comment(std::string_view line);
+  /// Goes on with the recording whose header begins with `line`.
+  tl::expected<void, Error> join(std::string_view line);
   [[nodiscard]] tl::unexpected<Error> wrong_cell(const Cell& cell, std::string_view found) const;
 
   LineReader lines_;
   RecordingHeader header_;
   std::vector<Cell> cells_;
+  std::vector<RecordingEvent> events_;
+  bool restarted_ = false;  ///< the next row is the first since the device started
+  bool complained_of_event_ = false;
   std::vector<std::string> complaints_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace penduline {
@@ -21,6 +22,16 @@ std::string toml_text(const toml::node& node) {
     line += line.empty() ? word : " " + word;
   }
   return line;
+}
+
+std::string toml_quoted(const std::string& text) {
+  // A string of JSON is one of TOML, too, but for the character DEL.
+  constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
+  std::string quoted = nlohmann::json(text).dump(-1, ' ', false, kReplaceBadBytes);
+  for (auto at = quoted.find('\x7f'); at != std::string::npos; at = quoted.find('\x7f', at)) {
+    quoted.replace(at, 1, "\\u007f");
+  }
+  return quoted;
 }
 
 }  // namespace penduline

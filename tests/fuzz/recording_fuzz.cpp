@@ -24,6 +24,14 @@ void check_acquisition(const Acquisition<double>& acquisition) {
           "two to eight sensors");
 }
 
+void check_event(const RecordingEvent& event) {
+  const std::string line = event_line(event);
+  require(line.size() <= kMaxEventBytes && line.find('\n') == line.size() - 1,
+          "an event is one line that is not too long");
+  const auto again = parse_event(line);
+  require(again && event_line(*again) == line, "an event that was read can be written and read");
+}
+
 void check_sample(const Sample& sample, const Acquisition<double>& acquisition) {
   require(sample.t_us >= 0, "times do not go below 0");
   require((sample.missing >> acquisition.sensor_count) == 0, "only sensors miss readings");
@@ -49,6 +57,9 @@ std::string read_and_check(const std::string& path) {
   Pipeline<double> pipeline(rig, acquisition);
   for (Sample sample;;) {
     const auto more = reader->read(sample);
+    for (const RecordingEvent& event : reader->events()) {
+      check_event(event);
+    }
     if (!more) {
       check_message(more.error().message, path);
       break;

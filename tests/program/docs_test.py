@@ -28,6 +28,13 @@ class DocsTest(ProgramTest):
             self.assertGreater(len(names), 5)
             for name in filter(None, names):
                 self.assertIn(f"| `{name}` |", formats, f"of {source}")
+        events = (ROOT / "hal/replay/recording_event.hpp").read_text()
+        named = dict(re.findall(r'string_view (k\w+) = "(\w+)";', events))
+        kinds = re.findall(r'EventKindDescription\{(?:"(\w+)"|event::(k\w+)), "([^"]+)",\s+"([^"]+)"\}',
+                           events)
+        self.assertEqual(len(kinds), len(re.findall(r"  EventKindDescription\{", events)))
+        for kind, name, fields, meaning in kinds:
+            self.assertIn(f"| `{kind or named[name]}` | {fields} | {meaning} |", formats)
         flags = re.findall(r'FlagDescription\{flag::\w+, "(\w+)",\s+"([^"]+)"\}',
                            (ROOT / "common/flags.hpp").read_text())
         bits = [int(bit) for bit in re.findall(r"Flags k\w+ = 1U << (\d+)U",

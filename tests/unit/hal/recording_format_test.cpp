@@ -64,7 +64,10 @@ TEST_CASE("A row of a recording is design.md's example", "[recording]") {
 }
 
 TEST_CASE("The head has every key of the one list, in its order", "[recording]") {
-  const std::string head = recording_head(design_header());
+  RecordingHeader header = design_header();
+  header.serial = "e66058388340b32a";
+  header.boot_id = 7;
+  const std::string head = recording_head(header);
   std::size_t at = 0;
   for (const HeaderKeyDescription& key : kHeaderKeys) {
     const std::string line = "# " + std::string(key.key) + " = ";
@@ -154,7 +157,7 @@ TEST_CASE("The acquisition comes back from a recording to the last bit", "[recor
 TEST_CASE("Whatever a board calls itself comes back from a recording", "[recording]") {
   const std::string name =
       GENERATE(as<std::string>{}, "pico", "with \"quotes\"", "it's", "back\\slash", "two\nlines",
-               "a\r\nb", "tab\there", "# sharp", "\x1b[31mred", "M\xc3\xbcnchen",
+               "a\r\nb", "tab\there", "# sharp", "\x1b[31mred", "del\x7f", "M\xc3\xbcnchen",
                "pico\xf0\x9f\x98\x80", "'''", "\"\"\"", "a\n'''b\\\"\"\"");
   RecordingHeader header = design_header();
   header.board = header.firmware = name;
@@ -162,6 +165,15 @@ TEST_CASE("Whatever a board calls itself comes back from a recording", "[recordi
   CHECK(out.error.empty());
   CHECK(out.header.board == name);
   CHECK(out.header.firmware == name);
+}
+
+TEST_CASE("The board's number and its start come back from a recording", "[recording]") {
+  RecordingHeader header = design_header();
+  header.serial = "e66058388340b32a";
+  header.boot_id = 4294967295;
+  const ReadOut out = read_text(recording_head(header));
+  CHECK(out.header.serial == "e66058388340b32a");
+  CHECK(out.header.boot_id == 4294967295);
 }
 
 TEST_CASE("The start time comes back from a recording", "[recording]") {

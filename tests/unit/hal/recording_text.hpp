@@ -50,6 +50,8 @@ struct ReadOut {
   std::string error;              ///< "" where there was none
   std::vector<std::string> complaints;
   RecordingHeader header;
+  /// "SEQ: EVENT" of each event, SEQ being the row that follows, "end" behind the last one.
+  std::vector<std::string> events;
 };
 
 [[nodiscard]] inline ReadOut read_out(const std::string& path) {
@@ -63,6 +65,10 @@ struct ReadOut {
   while (true) {
     Sample sample;
     const auto more = reader->read(sample);
+    for (const RecordingEvent& event : reader->events()) {
+      out.events.push_back((more && *more ? fmt::format("{}: ", sample.seq) : "end: ") +
+                           event_line(event));
+    }
     if (!more) {
       out.error = more.error().message;
       break;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happened beside the samples: comment lines between a recording's rows that a program can
+// read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <variant>
+#include <vector>
+
+#include "hal/error.hpp"
+
+namespace penduline {
+
+/// An event as the host saw it, on one line of a recording:
+/// # event = { kind = "boot", utc = 2026-11-21T07:00:03.250000Z, boot_id = 7 }
+struct RecordingEvent {
+  using Value = std::variant<std::int64_t, double, std::string>;
+  struct Field {
+    std::string key;
+    Value value;
+  };
+
+  std::string kind;                      ///< a word, see kEventKinds
+  std::optional<std::int64_t> utc_us{};  ///< host's time in microseconds since 1970
+  std::vector<Field> fields{};           ///< what else is known, by kind
+
+  /// A field's value, none where it is not there or of another type.
+  template <class Type>
+  [[nodiscard]] std::optional<Type> get(std::string_view key) const {
+    for (const Field& field : fields) {
+      if (field.key == key && std::holds_alternative<Type>(field.value)) {
+        return std::get<Type>(field.value);
+      }
+    }
+    return std::nullopt;
+  }
+};
+
+namespace event {
+inline constexpr std::string_view kBoot = "boot";
+inline constexpr std::string_view kPong = "pong";
+inline constexpr std::string_view kUnrecorded = "unrecorded";
+}  // namespace event
+
+struct EventKindDescription {
+  std::string_view kind;
+  std::string_view fields;
+  std::string_view meaning;
+};
+
+/// Every kind that this version writes or is to write; others are kept like them.
+inline constexpr std::array kEventKinds = {
+    EventKindDescription{event::kBoot, "boot_id, serial, board, firmware",
+                         "the board has started anew: the next sample counts as `restarted`"},
+    EventKindDescription{"disconnected", "reason", "the board went away"},
+    EventKindDescription{"connected", "port", "the board is back and had not stopped"},
+    EventKindDescription{event::kPong, "sent_us, t_us, received_us",
+                         "the host sent a Ping, the board's clock said, the host had the Pong"},
+    EventKindDescription{"release", "host_us", "the magnet has let the pendulum go"},
+    EventKindDescription{"trigger", "host_us, edge",
+                         "the trigger input went `rising` or `falling`"},
+    EventKindDescription{event::kUnrecorded, "samples",
+                         "so many samples were measured here and could not be recorded"},
+};
+
+/// What a line that is an event begins with.
+inline constexpr std::string_view kEventStart = "# event = ";
+
+/// No line of `event_line` is longer, in bytes with its newline.
+inline constexpr std::size_t kMaxEventBytes = 2048;
+
+/// The event as a line of a recording, with its newline. Fields that find no room in it are left
+/// out.
+[[nodiscard]] std::string event_line(const RecordingEvent& event);
+
+/// The event of a line that begins with kEventStart. Fields that are no number or string are left
+/// out. Fails, saying what was found and expected, where the line is no event.
+[[nodiscard]] tl::expected<RecordingEvent, Error> parse_event(std::string_view line);
+
+}  // namespace penduline
