@@ -41,7 +41,7 @@ struct FlagDescription {
 inline constexpr std::array kFlagDescriptions = {
     FlagDescription{flag::kSaturated, "saturated",
                     "a conversion reached the end of the ADC's range in a sample that went in"},
-    FlagDescription{flag::kOverrun, "overrun", "the device lost conversions during the sample"},
+    FlagDescription{flag::kOverrun, "overrun", "the device lost the windows before this sample"},
     FlagDescription{flag::kRestarted, "restarted", "the first sample after the device started"},
     FlagDescription{
         flag::kLate, "late",

@@ -137,7 +137,7 @@ concept FirmwareBoard = requires(Board& board) {
   /// Of the chip; wire::kUnknownTemperature where it has no thermometer.
   { board.temperature_cdeg() } -> std::same_as<std::int16_t>;
   /// Waits for a window, bytes or room for bytes, unless they came since the last call; wakes at
-  /// least with each window.
+  /// least ten times a second.
   { board.sleep() } -> std::same_as<void>;
 };
 

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "hal/concepts.hpp"
+
 namespace penduline {
 
 /// Notes when the hardware last went on; a second without that, while it has something to do, is a
@@ -12,12 +14,14 @@ namespace penduline {
 class ProgressWatch {
  public:
   void note(std::uint64_t now_us) {
-    noted_us_.store(static_cast<std::uint32_t>(now_us), std::memory_order_relaxed);
+    noted_us_.store(static_cast<std::uint32_t>(now_us), std::memory_order_release);
   }
-  [[nodiscard]] bool overdue(std::uint64_t now_us) const {
+  template <TickClock Clock>
+  [[nodiscard]] bool overdue(const Clock& clock) const {
     constexpr std::uint32_t kPatienceUs = 1'000'000;
-    return static_cast<std::uint32_t>(now_us) - noted_us_.load(std::memory_order_relaxed) >
-           kPatienceUs;
+    // The clock is read last: an interrupt may note between the two.
+    const std::uint32_t noted_us = noted_us_.load(std::memory_order_acquire);
+    return static_cast<std::uint32_t>(clock.now_us()) - noted_us > kPatienceUs;
   }
 
  private:

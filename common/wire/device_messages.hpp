@@ -112,7 +112,7 @@ struct Status {
         Field{"samples", &Status::samples, "samples taken"},
         Field{"dropped_frames", &Status::dropped_frames, "frames not sent, the ring being full"},
         Field{"bad_frames", &Status::bad_frames, "frames received damaged"},
-        Field{"overruns", &Status::overruns, "windows in which conversions were lost"},
+        Field{"overruns", &Status::overruns, "windows that were due and not taken"},
         Field{"late_max_us", &Status::late_max_us,
               "worst lateness of a window's first conversion since the last `Status` that was not "
               "asked for"},

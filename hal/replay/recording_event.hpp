@@ -43,6 +43,8 @@ struct RecordingEvent {
 
 namespace event {
 inline constexpr std::string_view kBoot = "boot";
+inline constexpr std::string_view kConnected = "connected";
+inline constexpr std::string_view kDisconnected = "disconnected";
 inline constexpr std::string_view kPong = "pong";
 inline constexpr std::string_view kUnrecorded = "unrecorded";
 }  // namespace event
@@ -57,8 +59,9 @@ struct EventKindDescription {
 inline constexpr std::array kEventKinds = {
     EventKindDescription{event::kBoot, "boot_id, serial, board, firmware",
                          "the board has started anew: the next sample counts as `restarted`"},
-    EventKindDescription{"disconnected", "reason", "the board went away"},
-    EventKindDescription{"connected", "port", "the board is back and had not stopped"},
+    EventKindDescription{event::kDisconnected, "reason", "the board went away"},
+    EventKindDescription{event::kConnected, "port, serial, boot_id",
+                         "the board is there, or back; `boot` follows where it has started anew"},
     EventKindDescription{event::kPong, "sent_us, t_us, received_us",
                          "the host sent a Ping, the board's clock said, the host had the Pong"},
     EventKindDescription{"release", "host_us", "the magnet has let the pendulum go"},

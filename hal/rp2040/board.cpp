@@ -34,8 +34,8 @@ void Board::start() {
   for (const Interrupt sampling : {Interrupt::kTimer0, Interrupt::kTimer1, Interrupt::kDma0}) {
     start_interrupt(sampling, Priority::kSampling);
   }
-  for (const Interrupt link : {Interrupt::kUsb, Interrupt::kUart0}) {
-    start_interrupt(link, Priority::kLink);
+  for (const Interrupt other : {Interrupt::kTimer2, Interrupt::kUsb, Interrupt::kUart0}) {
+    start_interrupt(other, Priority::kLink);
   }
 }
 
@@ -73,6 +73,11 @@ void on_timer_0() {
 }
 void on_timer_1() {
   board.sampler().on_wake_up_alarm();
+}
+void on_timer_2() {
+  Timer::acknowledge(Timer::kTickAlarm);
+  Timer::set_tick_alarm();
+  board.wake();
 }
 void on_dma_0() {
   if (board.sampler().on_burst_carried()) {

@@ -8,6 +8,7 @@ namespace penduline::rp2040 {
 
 void on_timer_0();
 void on_timer_1();
+void on_timer_2();
 void on_dma_0();
 void on_usb();
 void on_uart_0();

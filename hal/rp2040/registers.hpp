@@ -98,6 +98,7 @@ inline constexpr std::uint32_t kReady = 1U << 8U;
 namespace timer {  // 4.6
 inline constexpr std::uint32_t kAlarm0 = 0x40054010;
 inline constexpr std::uint32_t kAlarm1 = 0x40054014;
+inline constexpr std::uint32_t kAlarm2 = 0x40054018;
 inline constexpr std::uint32_t kRawHigh = 0x40054024;
 inline constexpr std::uint32_t kRawLow = 0x40054028;
 inline constexpr std::uint32_t kInterrupts = 0x40054034;
@@ -144,6 +145,7 @@ inline constexpr std::uint32_t kResetRequest = 0x05fa0004;
 enum class Interrupt : std::uint32_t {
   kTimer0 = 0,
   kTimer1 = 1,
+  kTimer2 = 2,
   kUsb = 5,
   kDma0 = 11,
   kUart0 = 20

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RP2040's 64-bit microsecond timer and two of its alarms (data sheet 4.6).
+// The RP2040's 64-bit microsecond timer and three of its alarms (data sheet 4.6).
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,12 @@ class Timer {
  public:
   static constexpr std::uint32_t kWindowAlarm = 1U << 0U;
   static constexpr std::uint32_t kWakeUpAlarm = 1U << 1U;
+  static constexpr std::uint32_t kTickAlarm = 1U << 2U;
 
   [[nodiscard]] static bool start() {
     const bool started = restart_peripheral(resets::kTimer);
-    reg(timer::kInterruptEnable) = kWindowAlarm | kWakeUpAlarm;
+    reg(timer::kInterruptEnable) = kWindowAlarm | kWakeUpAlarm | kTickAlarm;
+    set_tick_alarm();
     return started;
   }
 
@@ -37,6 +39,11 @@ class Timer {
 
   static void set_window_alarm(std::uint64_t at_us) {
     reg(timer::kAlarm0) = static_cast<std::uint32_t>(at_us);
+  }
+  /// Wakes the main loop where nothing else does.
+  static void set_tick_alarm() {
+    constexpr std::uint32_t kTickUs = 100'000;
+    reg(timer::kAlarm2) = read(timer::kRawLow) + kTickUs;
   }
   static void acknowledge(std::uint32_t alarm) { reg(timer::kInterrupts) = alarm; }
 };

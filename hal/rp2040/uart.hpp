@@ -43,7 +43,7 @@ class Uart {
 
   std::size_t write(std::span<const std::uint8_t> bytes) {
     const std::size_t taken = put_bytes(out_, bytes);
-    // Only the interrupt empties the ring, so that the bytes keep their order.
+    // With its interrupt off, which empties the ring as well: the bytes keep their order.
     disable_interrupt(Interrupt::kUart0);
     send();
     enable_interrupt(Interrupt::kUart0);
@@ -53,7 +53,7 @@ class Uart {
   std::size_t read(std::span<std::uint8_t> bytes) { return take_bytes(in_, bytes); }
 
   /// Its transmitter needs nobody at the other end: a second without a byte out is a fault.
-  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_.now_us()); }
+  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_); }
   [[nodiscard]] bool asks_for_bootloader() const { return false; }
 
   /// True where bytes have come or there is room for others to go.

@@ -12,6 +12,7 @@ inline constexpr std::uint8_t kNotifyEndpoint =
     1;                                            ///< in, interrupt; never used, but must be there
 inline constexpr std::uint8_t kDataEndpoint = 2;  ///< in and out, bulk
 inline constexpr std::uint8_t kPacketBytes = 64;
+inline constexpr std::uint16_t kDataInterface = 1;
 
 inline constexpr std::array<std::uint8_t, 18> kDeviceDescriptor = {
     18,

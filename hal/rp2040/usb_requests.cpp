@@ -19,7 +19,6 @@ constexpr std::uint8_t kIn = 0x80;
 // Standard requests (USB 2.0, table 9-4).
 constexpr std::uint8_t kGetStatus = 0;
 constexpr std::uint8_t kClearFeature = 1;
-constexpr std::uint8_t kSetFeature = 3;
 constexpr std::uint8_t kSetAddress = 5;
 constexpr std::uint8_t kGetDescriptor = 6;
 constexpr std::uint8_t kGetConfiguration = 8;
@@ -77,14 +76,14 @@ void UsbSerial::on_standard_request(const Setup& setup) {
         restart_data_out();
       }
       return acknowledge();
-    case kSetFeature:
-      return acknowledge();
     case kSetInterface:  // the same for all of its endpoints (9.1.1.5)
-      if (setup.value != 0) {
+      if (setup.value != 0 || setup.index > usb::kDataInterface) {
         return usb::stall_control();
       }
-      restart_data_in();
-      restart_data_out();
+      if (setup.index == usb::kDataInterface) {
+        restart_data_in();
+        restart_data_out();
+      }
       return acknowledge();
     case kSetAddress:
       new_address_ = low_byte(setup.value);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "hal/rp2040/registers.hpp"
 #include "hal/rp2040/usb_controller.hpp"
@@ -48,6 +49,9 @@ std::size_t UsbSerial::write(std::span<const std::uint8_t> bytes) {
   const std::size_t taken = put_bytes(out_, bytes);
   disable_interrupt(Interrupt::kUsb);
   send_data();
+  if (in_armed_) {
+    await_frame();  // nobody has fetched the packet: at least there are frames
+  }
   enable_interrupt(Interrupt::kUsb);
   return taken;
 }
@@ -102,6 +106,7 @@ bool UsbSerial::on_interrupt() {
 
 void UsbSerial::configure(bool on) {
   configured_ = on;
+  stop_awaiting_frame();
   reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kIn)) = 0;
   reg(usb::buffer_ctrl(usb::kDataEndpoint, Direction::kOut)) = 0;
   if (on) {
@@ -135,7 +140,7 @@ void UsbSerial::send_data() {
   }
   // A bus error at a packet near its frame's end can hang the controller (RP2040-E15). The rest of
   // the frame is a margin for an interrupt that came late.
-  constexpr std::uint32_t kUseOfAFrameUs = 700;
+  constexpr std::uint32_t kUseOfAFrameUs = 600;
   if (now_us() - frame_began_us_ > kUseOfAFrameUs) {
     await_frame();
     return;
@@ -162,33 +167,40 @@ bool UsbSerial::prepare_packet() {
 }
 
 void UsbSerial::await_frame() {
-  rp2040::read(usb::kFrameNumber);  // forgets the frames that have begun already
-  if (!awaits_frame_.load(std::memory_order_relaxed)) {
-    frames_.note(timer_.now_us());
-    awaits_frame_.store(true, std::memory_order_relaxed);
+  if (!configured_ || awaits_frame_.load(std::memory_order_relaxed)) {
+    return;
   }
-  asked_us_ = now_us();
+  rp2040::read(usb::kFrameNumber);  // forgets the frames that have begun already
+  frames_.note(timer_.now_us());
+  awaits_frame_.store(true, std::memory_order_relaxed);
   reg(usb::kInterruptEnable) = kInterrupts | usb::kOnFrame;
 }
 
-void UsbSerial::on_frame() {
-  // A frame comes within a millisecond. What took longer, was perhaps told late: by how much?
-  constexpr std::uint32_t kLongestWaitUs = 1100;
-  rp2040::read(usb::kFrameNumber);  // ends the interrupt (table 411)
-  frames_.note(timer_.now_us());
-  if (now_us() - asked_us_ > kLongestWaitUs) {
-    asked_us_ = now_us();
-    return;
-  }
+void UsbSerial::stop_awaiting_frame() {
   awaits_frame_.store(false, std::memory_order_relaxed);
   reg(usb::kInterruptEnable) = kInterrupts;
-  frame_began_us_ = now_us();
+}
+
+/// While interrupts are off a frame is told late, nobody knows by how much: one is trusted that
+/// comes a frame's length after another.
+void UsbSerial::on_frame() {
+  constexpr std::uint32_t kShortestFrameUs = 900;
+  constexpr std::uint32_t kLongestFrameUs = 1100;
+  rp2040::read(usb::kFrameNumber);  // ends the interrupt (4.1.4, SOF_RD)
+  frames_.note(timer_.now_us());
+  const std::uint32_t began_us = now_us();
+  const std::uint32_t length_us = began_us - std::exchange(frame_told_us_, began_us);
+  if (length_us < kShortestFrameUs || length_us > kLongestFrameUs) {
+    return;
+  }
+  stop_awaiting_frame();
+  frame_began_us_ = began_us;
   send_data();
 }
 
 bool UsbSerial::stuck() const {
   constexpr std::uint32_t kSuspended = 1U << 4U;
-  return awaits_frame_.load(std::memory_order_relaxed) && frames_.overdue(timer_.now_us()) &&
+  return awaits_frame_.load(std::memory_order_relaxed) && frames_.overdue(timer_) &&
          (rp2040::read(usb::kSieStatus) & kSuspended) == 0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board as a USB serial port (CDC-ACM), driven by its interrupt alone.
+// The board as a USB serial port (CDC-ACM).
 #pragma once
 
 #include <array>
@@ -70,6 +70,7 @@ class UsbSerial {
   void send_data();
   [[nodiscard]] bool prepare_packet();
   void await_frame();
+  void stop_awaiting_frame();
   void on_frame();
   void take_data();
   void open_for_data();
@@ -91,7 +92,7 @@ class UsbSerial {
   std::optional<std::size_t> packet_bytes_;  ///< of the one that is ready to go
   bool was_full_ = false;                    ///< the packet before it
   std::uint32_t frame_began_us_ = 0;
-  std::uint32_t asked_us_ = 0;  ///< when the frame that is awaited was asked for
+  std::uint32_t frame_told_us_ = 0;  ///< the newest that an interrupt told of
   std::atomic<bool> awaits_frame_{false};
   ProgressWatch frames_;
   std::array<std::uint8_t, 7> line_coding_ = {0x00, 0xc2, 0x01, 0x00, 0, 0, 8};  ///< 115200 8N1

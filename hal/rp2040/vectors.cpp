@@ -11,10 +11,10 @@ constexpr cortex_m::Handler on(Interrupt interrupt, cortex_m::Vector function) {
 }
 
 [[gnu::section(".vectors"), gnu::used]] constinit const auto vector_table =
-    cortex_m::make_vector_table<32>({on(Interrupt::kTimer0, on_timer_0),
-                                     on(Interrupt::kTimer1, on_timer_1),
-                                     on(Interrupt::kUsb, on_usb), on(Interrupt::kDma0, on_dma_0),
-                                     on(Interrupt::kUart0, on_uart_0)});
+    cortex_m::make_vector_table<32>(
+        {on(Interrupt::kTimer0, on_timer_0), on(Interrupt::kTimer1, on_timer_1),
+         on(Interrupt::kTimer2, on_timer_2), on(Interrupt::kUsb, on_usb),
+         on(Interrupt::kDma0, on_dma_0), on(Interrupt::kUart0, on_uart_0)});
 
 }  // namespace
 }  // namespace penduline::rp2040

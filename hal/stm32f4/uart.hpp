@@ -38,7 +38,7 @@ class Uart {
 
   std::size_t write(std::span<const std::uint8_t> bytes) {
     const std::size_t taken = put_bytes(out_, bytes);
-    // Only the interrupt empties the ring, so that the bytes keep their order.
+    // With its interrupt off, which empties the ring as well: the bytes keep their order.
     disable_usart_2();
     send(stm32f4::read(usart2::kStatus));
     enable_usart_2();
@@ -48,7 +48,7 @@ class Uart {
   std::size_t read(std::span<std::uint8_t> bytes) { return take_bytes(in_, bytes); }
 
   /// Its transmitter needs nobody at the other end: a second without a byte out is a fault.
-  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_.now_us()); }
+  [[nodiscard]] bool stuck() const { return !out_.empty() && sent_.overdue(timer_); }
   [[nodiscard]] bool asks_for_bootloader() const { return false; }
 
   /// One byte each way at most; while there is more to do the interrupt comes again.

@@ -122,9 +122,9 @@ export class CdcPort {
     for (const endpoint of [data.in | 0x80, data.out]) this.#control(request(kEndpointOut, kClearFeature, 0, endpoint, 0));
   }
 
-  /** Chooses the data interface's only setting, which begins with DATA0, too. */
-  setInterface() {
-    this.#control(request(kInterfaceOut, kSetInterface, 0, 1, 0));
+  /** Chooses an interface's only setting; the data interface (1) then begins with DATA0, too. */
+  setInterface(number) {
+    this.#control(request(kInterfaceOut, kSetInterface, 0, number, 0));
   }
 
   /** A control transfer, run to its end. */

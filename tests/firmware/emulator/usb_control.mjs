@@ -53,7 +53,8 @@ export function control(host, packet, out, done) {
 function settle(host, [type, code, value, , index]) {
   if (type === 0 && code === kSetAddress) host.address = value;
   if (type === 0 && code === kSetConfiguration) host.resetToggles();
-  if (type === 1 && code === kSetInterface) host.resetToggles();
+  // Interface 0, the control one, has the notification endpoint alone, which has sent nothing.
+  if (type === 1 && code === kSetInterface && index === 1) host.resetToggles();
   if (type === 2 && code === kClearFeature) host.resetToggles([index]);
 }
 

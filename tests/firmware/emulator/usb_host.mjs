@@ -104,6 +104,13 @@ export class UsbHost {
     this.frames.start();
   }
 
+  /** A bus reset that does not end: SE0, without frames, which is not suspended either. */
+  holdReset() {
+    this.frames.stop();
+    this.plugged = false; // so that nobody attaches after it
+    this.controller.resetDevice();
+  }
+
   /** Puts the plug back; a device with its pull-up on is reset and attaches. */
   plug() {
     this.plugged = true;

@@ -29,6 +29,17 @@ export const Result = {
 export const EmitterMode = { switched: 0, lit: 1, dark: 2 };
 export const ResetCause = { powerOn: 0, external: 1, watchdog: 2, software: 3, fault: 4, assertion: 5 };
 
+/** Those of the test that runs. */
+const boards = [];
+
+/** No test passes over what silicon, the USB host or the emulator has to say against the firmware. */
+if (process.env.NODE_TEST_CONTEXT) { // outside of tests `node:test` would write to stdout
+  const { afterEach } = await import('node:test');
+  afterEach(() => {
+    for (const board of boards.splice(0)) assert.deepEqual(board.emulator.problems, []);
+  });
+}
+
 /** A board with a USB host that reads it. */
 export class Board {
   /**
@@ -43,6 +54,7 @@ export class Board {
       channel === kTemperatureChannel ? kTemperatureCode : pins(channel, seconds, emulator.pinLevel(kEmitterPin)));
     this.port = new CdcPort(this.emulator);
     this.splitter = new FrameSplitter();
+    boards.push(this);
   }
 
   /** Runs for some virtual seconds; returns the messages that came by USB. */
@@ -69,7 +81,7 @@ export class Board {
     return this.command('AskStatus').messages.find((message) => message.name === 'Status');
   }
 
-  /** Fails on anything that silicon, the USB host or the emulator has to say against the firmware. */
+  /** Fails on problems, and on a frame that came damaged. */
   assertSound() {
     assert.deepEqual(this.emulator.problems, []);
     assert.equal(this.splitter.damaged, 0);

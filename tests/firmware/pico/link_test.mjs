@@ -67,13 +67,13 @@ test('the host goes and comes back ten times', () => {
 });
 
 for (const [what, restart] of [['clears the halts', (port) => port.clearHalts()],
-  ['sets the interface', (port) => port.setInterface()]]) {
+  ['sets the data interface', (port) => port.setInterface(1)], ['sets the other interface', (port) => port.setInterface(0)]]) {
   test(`a host that ${what} loses nothing and goes on with DATA0`, () => {
     const board = new Board();
     for (let i = 0; i < 8; i++) { // with either turn of DATA0 and DATA1, and a packet that waits
       board.port.stopReading();
       board.run(0.05 + 0.013 * i);
-      restart(board.port);
+      restart(board.port); // with the right turn of DATA0 and DATA1, or the strict host complains
       board.port.resumeReading();
       assert.equal(board.command('AskHello').reply.result, Result.done);
     }
@@ -97,7 +97,7 @@ test('whatever its length, what the board says is handed on at once', () => {
   board.assertSound();
 });
 
-test('a suspended bus is no fault, one that has stopped is: the watchdog begins anew', () => {
+test('a bus that is suspended, or reset for long, is no fault', () => {
   const board = new Board();
   board.run(1);
   board.port.suspend();
@@ -105,15 +105,27 @@ test('a suspended bus is no fault, one that has stopped is: the watchdog begins 
   assert.equal(board.emulator.resets, 0);
   board.port.resume();
   board.run(1);
-  board.assertSound();
-  board.port.hang();
-  board.run(10);
-  assert.equal(board.emulator.resets, 1);
-  board.port.resumeReading();
-  board.port.attach();
-  board.run(1);
-  assert.equal(board.status().reset_cause, ResetCause.watchdog);
+  board.port.stopReading();
+  board.port.host.holdReset();
+  board.run(20);
+  assert.equal(board.emulator.resets, 0);
 });
+
+for (const [when, wait] of [['idle', 0], ['with a packet on its way', 0.2]]) {
+  test(`a controller that hangs ${when} is one: the watchdog begins anew`, () => {
+    const board = new Board();
+    board.run(1);
+    board.port.stopReading();
+    board.run(wait);
+    board.port.hang();
+    board.run(10);
+    assert.equal(board.emulator.resets, 1);
+    board.port.resumeReading();
+    board.port.attach();
+    board.run(1);
+    assert.equal(board.status().reset_cause, ResetCause.watchdog);
+  });
+}
 
 test('a ping is answered by the clock', () => {
   const board = new Board();
