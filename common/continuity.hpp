@@ -27,7 +27,7 @@ class Continuity {
     Verdict verdict;
     if (started_) {
       if ((sample.flags & flag::kRestarted) != 0) {
-        verdict.unbroken = false;
+        verdict = {.flags = flag::kDropout, .unbroken = false};  // it did not sample meanwhile
       } else if (sample.seq <= last_seq_ || sample.t_us <= last_t_us_) {
         verdict = {.flags = flag::kOutOfOrder, .unbroken = false};
         seq_before_stray_ = last_seq_;

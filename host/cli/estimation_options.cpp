@@ -13,7 +13,6 @@
 #include "host/cli/log.hpp"
 #include "host/output/text_file.hpp"
 #include "host/session/session.hpp"
-#include "host/session/stop_signal.hpp"
 
 namespace penduline {
 namespace {
@@ -54,7 +53,7 @@ tl::expected<TextFile, Error> start_recording(const std::string& path,
 
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
                                                   const EstimationRun& run, const RigFile& rig,
-                                                  Source& source) {
+                                                  Source& source, const StopSignal& stop) {
   const RecordingHeader header = source.header();
   auto estimator = make_estimator(options.estimator, rig.rig, header.acquisition);
   if (!estimator) {
@@ -87,7 +86,6 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
       return recording->flush();
     };
   }
-  const StopSignal stop;
   SessionResult result =
       run_session(parts, {.paced = run.paced, .rows_on_stdout = options.output_path == "-"}, stop);
   // What was estimated before a failure is not thrown away.
@@ -151,11 +149,11 @@ tl::expected<RigFile, Error> load_rig(const std::string& path) {
 }
 
 ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
-                    tl::expected<std::unique_ptr<Source>, Error> source) {
+                    tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop) {
   if (!source) {
     return log_failure(source.error());
   }
-  const auto result = run_estimation(options, run, rig, **source);
+  const auto result = run_estimation(options, run, rig, **source, stop);
   if (!result) {
     return log_failure(result.error());
   }

@@ -11,6 +11,7 @@
 #include "host/estimator/estimator.hpp"
 #include "host/output/estimate_writer.hpp"
 #include "host/rig_file.hpp"
+#include "host/session/stop_signal.hpp"
 #include "host/source/source.hpp"
 
 namespace penduline {
@@ -39,8 +40,9 @@ void add_rig_option(CLI::App& command, std::string& path);
 /// Reads a rig and warns of its unknown keys.
 [[nodiscard]] tl::expected<RigFile, Error> load_rig(const std::string& path);
 
-/// Runs a session on an opened source and reports it on stderr.
+/// Runs a session on an opened source until it ends or `stop` is requested, and reports it on
+/// stderr.
 ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
-                    tl::expected<std::unique_ptr<Source>, Error> source);
+                    tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop);
 
 }  // namespace penduline

@@ -39,7 +39,9 @@ ExitStatus replay(const ReplayOptions& options) {
   if (!rig) {
     return log_failure(rig.error());
   }
-  return estimate(options.estimation, {.input_path = options.path}, *rig, open_replay(options));
+  const StopSignal stop;
+  return estimate(options.estimation, {.input_path = options.path}, *rig, open_replay(options),
+                  stop);
 }
 
 }  // namespace

@@ -2,14 +2,23 @@
 // `penduline run`: samples as they come, estimates at once.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
+#include "common/wire/commands.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/simulation_options.hpp"
-#include "host/source/source.hpp"
+#include "host/session/stop_signal.hpp"
+#include "host/source/board_source.hpp"
+#include "host/source/port_finder.hpp"
+#include "host/source/source_uri.hpp"
 
 namespace penduline {
 namespace {
@@ -20,21 +29,64 @@ struct RunOptions {
   std::string uri;
   std::string record_path;
   bool fast = false;
+  BoardSettings board;
 };
+
+tl::expected<std::unique_ptr<Source>, Error> open_source(const RunOptions& options,
+                                                         const SourceUri& uri,
+                                                         const Rig<double>& rig,
+                                                         const StopSignal& stop) {
+  if (uri.kind == SourceUri::Kind::kSimulation) {
+    SimulationSettings settings = simulation_settings(options.simulation, rig);
+    settings.duration_s = options.simulation.seconds;
+    return simulate(rig, settings);
+  }
+  if (uri.kind == SourceUri::Kind::kRecording) {
+    return open_recording(uri.path);
+  }
+  return BoardSource::open(port_opener(uri), options.board,
+                           {.say = log_info, .stop_requested = [&] { return stop.requested(); }});
+}
+
+/// The rate to ask a board for; none where no option says one.
+std::optional<std::uint32_t> rate_millihz(const CLI::App& command, double rate_hz) {
+  if (command.count("--rate") == 0) {
+    return std::nullopt;
+  }
+  constexpr double kLeastHz = wire::kLeastRateMillihz / 1e3;
+  constexpr double kMostHz = wire::kMostRateMillihz / 1e3;
+  if (!(rate_hz >= kLeastHz && rate_hz <= kMostHz)) {
+    throw CLI::ValidationError("--rate", fmt::format("found {}, expected {} to {} Hz of a board",
+                                                     rate_hz, kLeastHz, kMostHz));
+  }
+  return static_cast<std::uint32_t>(std::lround(rate_hz * 1e3));
+}
+
+std::map<std::string, wire::EmitterMode> emitter_modes() {
+  std::map<std::string, wire::EmitterMode> modes;
+  for (const auto& mode : wire::kEmitterModes) {
+    modes.emplace(mode.name, mode.value);
+  }
+  return modes;
+}
 
 ExitStatus run(const RunOptions& options, const SourceUri& source) {
   const auto rig = load_rig(options.estimation.rig_path);
   if (!rig) {
     return log_failure(rig.error());
   }
-  SimulationSettings settings = simulation_settings(options.simulation, rig->rig);
-  settings.duration_s = options.simulation.seconds;
+  const StopSignal stop;
+  auto opened = open_source(options, source, rig->rig, stop);
+  if (!opened && stop.requested()) {
+    log_info(opened.error().message);
+    return ExitStatus::kDone;
+  }
   return estimate(options.estimation,
                   {.live = !options.fast,
-                   .paced = !options.fast && source.kind != SourceUri::Kind::kBoard,
+                   .paced = !options.fast && !source.is_board(),
                    .record_path = options.record_path,
                    .input_path = source.path},
-                  *rig, open_source(source, rig->rig, settings));
+                  *rig, std::move(opened), stop);
 }
 
 }  // namespace
@@ -43,12 +95,23 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = program.add_subcommand("run", "Turn samples into angles as they come");
   command
-      ->add_option("SOURCE", options->uri,
-                   "sim: (a simulated rig), file:PATH (a recording) or serial:PATH (a board)")
+      ->add_option(
+          "SOURCE", options->uri,
+          "auto (the board that is plugged in; auto:SERIAL: that one),\n"
+          "serial:PATH[?baud=N] (a board's port), usb:VID:PID[:SERIAL] (without its driver),\n"
+          "file:PATH (a recording) or sim: (a simulated rig)")
       ->required();
   add_estimation_options(*command, options->estimation);
   command->add_option("--record", options->record_path, "Also write the samples as a recording")
       ->type_name("FILE");
+  const std::map<std::string, wire::EmitterMode> modes = emitter_modes();
+  command
+      ->add_option("--emitter", options->board.emitter_mode,
+                   "Of a board: its emitters in turn lit and dark, always lit, or always dark")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("switched|lit|dark");
+  command->add_flag("--once", options->board.once,
+                    "Fail where there is no board, or it goes, instead of waiting for it");
   command->add_flag("--fast", options->fast, "Do not wait for the samples' own times");
   add_simulation_options(*command, options->simulation,
                          "Until when a simulation runs; else endless");
@@ -57,16 +120,22 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "  penduline run sim: --rig rig.toml --case conical\n"
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv");
   command->final_callback([options, command, &status] {
-    const SourceUri source = parse_uri(options->uri);
-    if (source.kind == SourceUri::Kind::kUnknown) {
-      throw CLI::ValidationError(
-          "SOURCE",
-          fmt::format("found '{}', expected sim:, file:PATH or serial:PATH", options->uri));
+    const auto source = parse_uri(options->uri);
+    if (!source) {
+      throw CLI::ValidationError("SOURCE", source.error().message);
     }
-    if (source.kind != SourceUri::Kind::kSimulation) {
+    if (source->is_board()) {
+      refuse_simulation_options(*command, "is for the source sim: only", "--rate");
+      options->board.rate_millihz = rate_millihz(*command, options->simulation.settings.rate_hz);
+    } else if (source->kind != SourceUri::Kind::kSimulation) {
       refuse_simulation_options(*command, "is for the source sim: only");
     }
-    status = run(*options, source);
+    for (const char* name : {"--once", "--emitter"}) {
+      if (command->count(name) > 0 && !source->is_board()) {
+        throw CLI::ValidationError(name, "is for a board only");
+      }
+    }
+    status = run(*options, *source);
   });
 }
 

@@ -137,10 +137,12 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options,
   add_disturbance_options(command, options);
 }
 
-void refuse_simulation_options(const CLI::App& command, const std::string& why) {
+void refuse_simulation_options(const CLI::App& command, const std::string& why,
+                               const std::string& but) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string& group = option->get_group();
-    if (option->count() > 0 && (group == kSwingGroup || group == kSensorsGroup)) {
+    if (option->count() > 0 && option->get_name() != but &&
+        (group == kSwingGroup || group == kSensorsGroup)) {
       throw CLI::ValidationError(option->get_name(), why);
     }
   }

@@ -29,8 +29,9 @@ struct SimulationOptions {
 void add_simulation_options(CLI::App& command, SimulationOptions& options,
                             const std::string& seconds_help);
 
-/// Throws CLI::ValidationError, saying `why`, where one of these options was given.
-void refuse_simulation_options(const CLI::App& command, const std::string& why);
+/// Throws CLI::ValidationError, saying `why`, where one of these options was given, `but` for one.
+void refuse_simulation_options(const CLI::App& command, const std::string& why,
+                               const std::string& but = "");
 
 /// What the options ask for; the duration is the case's own unless --seconds says otherwise. Throws
 /// CLI::ValidationError where the integrator or the case cannot start from the tilt.

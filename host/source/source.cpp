@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "hal/linux/wire_reader.hpp"
 #include "hal/replay/recording_reader.hpp"
 #include "hal/sim/sampled_rig.hpp"
 
@@ -22,15 +21,7 @@ RecordingHeader header_of(const VoltageLogReader& reader) {
   return {.acquisition = reader.acquisition(), .board = "", .firmware = "", .started = ""};
 }
 
-RecordingHeader header_of(const WireReader& reader) {
-  const wire::Hello& hello = reader.hello();
-  return {.acquisition = reader.acquisition(),
-          .board = std::string(wire::characters_of(hello.board)),
-          .firmware = std::string(wire::characters_of(hello.firmware)),
-          .started = ""};
-}
-
-/// A reader of files or of a board's stream.
+/// A reader of files.
 template <class Reader>
 class ReaderSource final : public Source {
  public:
@@ -42,6 +33,13 @@ class ReaderSource final : public Source {
   [[nodiscard]] double progress() const override { return reader_.progress(); }
   [[nodiscard]] std::vector<std::string> complaints() const override {
     return reader_.complaints();
+  }
+  [[nodiscard]] std::span<const RecordingEvent> events() const override {
+    if constexpr (requires { reader_.events(); }) {
+      return reader_.events();
+    } else {
+      return {};
+    }
   }
 
  private:
@@ -102,37 +100,8 @@ tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(const std::string&
   return source_of(VoltageLogReader::open(path, layout));
 }
 
-SourceUri parse_uri(std::string_view uri) {
-  using Kind = SourceUri::Kind;
-  if (uri == "sim:") {
-    return {.kind = Kind::kSimulation, .path = ""};
-  }
-  for (const auto& [prefix, kind] :
-       {std::pair{std::string_view("file:"), Kind::kRecording}, {"serial:", Kind::kBoard}}) {
-    if (uri.starts_with(prefix) && uri.size() > prefix.size()) {
-      return {.kind = kind, .path = std::string(uri.substr(prefix.size()))};
-    }
-  }
-  return {.kind = Kind::kUnknown, .path = ""};
-}
-
-tl::expected<std::unique_ptr<Source>, Error> open_board(const std::string& path) {
-  return source_of(WireReader::open(path));
-}
-
-tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
-                                                         const Rig<double>& rig,
-                                                         const SimulationSettings& settings) {
-  switch (uri.kind) {
-    case SourceUri::Kind::kSimulation:
-      return std::make_unique<SimulatedSource>(rig, settings);
-    case SourceUri::Kind::kRecording:
-      return open_recording(uri.path);
-    case SourceUri::Kind::kBoard:
-      return open_board(uri.path);
-    default:
-      return failure("found no source, expected sim:, file:PATH or serial:PATH");
-  }
+std::unique_ptr<Source> simulate(const Rig<double>& rig, const SimulationSettings& settings) {
+  return std::make_unique<SimulatedSource>(rig, settings);
 }
 
 }  // namespace penduline

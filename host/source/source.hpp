@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sources of samples, chosen at run time by URI.
+// Sources of samples.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
-#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "common/rig.hpp"
 #include "common/sample.hpp"
+#include "hal/replay/recording_event.hpp"
 #include "hal/replay/recording_format.hpp"
 #include "hal/replay/voltage_log_reader.hpp"
 #include "hal/sim/sampled_rig.hpp"
@@ -33,6 +34,8 @@ class Source {
   [[nodiscard]] virtual double progress() const = 0;
   /// What is wrong with the source and cost no sample, in words; grows while reading.
   [[nodiscard]] virtual std::vector<std::string> complaints() const = 0;
+  /// What happened between the sample read last and the one before; at the end, after the last.
+  [[nodiscard]] virtual std::span<const RecordingEvent> events() const { return {}; }
 };
 
 /// A recording. The path "-" is the standard input.
@@ -42,21 +45,9 @@ class Source {
 [[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_voltage_log(
     const std::string& path, const VoltageLogLayout& layout);
 
-/// A board's frames: its serial port, a pipe or file with its bytes, "-" for the standard input.
-[[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_board(const std::string& path);
-
-/// What a source's URI says: `sim:`, `file:PATH` or `serial:PATH`.
-struct SourceUri {
-  enum class Kind { kUnknown, kSimulation, kRecording, kBoard };
-  Kind kind = Kind::kUnknown;
-  std::string path;  ///< of kRecording and kBoard
-};
-
-[[nodiscard]] SourceUri parse_uri(std::string_view uri);
-
-/// Opens a source; a simulation runs `rig` with `settings`.
-[[nodiscard]] tl::expected<std::unique_ptr<Source>, Error> open_source(
-    const SourceUri& uri, const Rig<double>& rig, const SimulationSettings& settings);
+/// A simulation of `rig`.
+[[nodiscard]] std::unique_ptr<Source> simulate(const Rig<double>& rig,
+                                               const SimulationSettings& settings);
 
 /// What the recording of a simulation says before its first sample; without a start time, so that
 /// one seed gives one file.

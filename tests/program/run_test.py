@@ -70,7 +70,8 @@ class RunTest(ProgramTest):
 
     def test_an_unknown_source_says_which_there_are(self):
         done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=2)
-        self.assertIn("SOURCE: found 'magic:', expected sim:, file:PATH or serial:PATH\n", done.stderr)
+        self.assertIn("SOURCE: found 'magic:', expected auto, serial:PATH, usb:VID:PID, file:PATH or "
+                      "sim:\n", done.stderr)
 
     def test_a_recording_without_samples_is_a_recording(self):
         recording = self.folder / "rec.csv"

@@ -87,7 +87,7 @@ TEST_CASE("After a restart the filter starts over", "[pipeline]") {
   Sample sample = restarted.next();
   sample.flags = flag::kRestarted;
   const auto estimate = feed.push(sample);
-  CHECK(estimate.flags == (flag::kRestarted | flag::kFilling));
+  CHECK(estimate.flags == (flag::kRestarted | flag::kDropout | flag::kFilling));
   CHECK(estimate.t_us == sample.t_us - kDelay);
   CHECK_FALSE(estimate.attitude.has_value());
   CHECK(feed.push(restarted.next()).flags == flag::kFilling);

@@ -161,12 +161,12 @@ TEST_CASE("A device that starts and a filter that fills are ordinary", "[session
         "30 samples at 20.000 Hz, 0 lost, 2 with angles; flagged: 1 restarted, 28 filling");
 }
 
-TEST_CASE("A device that restarts midway is counted and neither lost nor out of order",
+TEST_CASE("A device that restarts midway is a dropout, and nothing of it is out of order",
           "[session]") {
   std::vector<Sample> samples = numbered({7, 8, 0, 1});
   samples[2].flags = flag::kRestarted;
   CHECK(run(samples).summary ==
-        "4 samples at 20.000 Hz, 0 lost, 4 with angles; flagged: 1 restarted");
+        "4 samples at 20.000 Hz, 0 lost, 4 with angles; flagged: 1 restarted, 1 dropout");
 }
 
 TEST_CASE("Each kind of fault is told, though they come at once", "[session]") {

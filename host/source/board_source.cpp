@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connecting, listening, and connecting again.
+#include "host/source/board_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "common/wire/commands.hpp"
+#include "common/wire/sample_message.hpp"
+
+namespace penduline {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kLook{100};
+constexpr milliseconds kShortestWait{50};
+constexpr milliseconds kLongestWait{400};  // a board that is plugged in is to be seen at once
+constexpr seconds kPingPeriod{1};
+
+std::int64_t monotonic_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             steady_clock::now().time_since_epoch())
+      .count();
+}
+
+std::string serial_number_of(const wire::Hello& hello) {
+  std::string text;
+  for (const std::uint8_t byte : hello.unique_id) {
+    text += fmt::format("{:02X}", byte);
+  }
+  return text;
+}
+
+RecordingEvent event_of(std::string_view kind, std::vector<RecordingEvent::Field> fields) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {.kind = std::string(kind),
+          .utc_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count(),
+          .fields = std::move(fields)};
+}
+
+}  // namespace
+
+tl::expected<std::unique_ptr<Source>, Error> BoardSource::open(PortOpener opener,
+                                                               const BoardSettings& settings,
+                                                               BoardListener listener) {
+  std::unique_ptr<BoardSource> source(
+      new BoardSource(std::move(opener), settings, std::move(listener)));
+  if (auto connected = source->connect(); !connected) {
+    return tl::unexpected(connected.error());
+  }
+  if (!source->connection_) {
+    return failure("stopped before a board had said Hello");
+  }
+  return source;
+}
+
+/// Connects as soon as it can; returns without a connection where a stop is requested.
+tl::expected<void, Error> BoardSource::connect() {
+  milliseconds wait = kShortestWait;
+  bool said = hello_.has_value();  // that it has gone
+  while (!listener_.stop_requested()) {
+    const auto connected = try_to_connect();
+    if (connected || settings_.once || listener_.stop_requested()) {
+      return settings_.once ? connected : tl::expected<void, Error>();
+    }
+    if (!said) {
+      listener_.say(connected.error().message + "; waiting for it (Ctrl-C ends)");
+      said = true;
+    }
+    std::this_thread::sleep_for(wait);
+    wait = std::min(2 * wait, kLongestWait);
+  }
+  return {};
+}
+
+tl::expected<void, Error> BoardSource::try_to_connect() {
+  auto port = opener_();
+  if (!port) {
+    return tl::unexpected(port.error());
+  }
+  // What has no way back is a file or a pipe: it will not get better by waiting.
+  settings_.once = settings_.once || !(*port)->two_way();
+  port_name_ = (*port)->name();
+  auto connection = BoardConnection::open(std::move(*port), listener_.stop_requested);
+  if (!connection) {
+    return tl::unexpected(connection.error());
+  }
+  wire::Hello hello = connection->hello();
+  if (auto fits = check(hello); !fits) {
+    if (std::exchange(refusal_, fits.error().message) != refusal_) {
+      listener_.say(refusal_ + "; waiting for the right one");
+    }
+    return fits;
+  }
+  if (auto applied = apply_settings(*connection, hello); !applied) {
+    settings_.once = settings_.once || !hello_;  // it would be refused again
+    return applied;
+  }
+  if (!hello_) {
+    connection->forget_kept_frames();  // nobody may have read them for long
+  }
+  connection_.emplace(std::move(*connection));
+  heard_at_ = Clock::now();
+  pinged_at_ = Clock::time_point();
+  welcome(hello);
+  return {};
+}
+
+/// Whether it is the board that it was, and samples as it did.
+tl::expected<void, Error> BoardSource::check(const wire::Hello& hello) const {
+  if (!hello_) {
+    return {};
+  }
+  if (hello.unique_id != hello_->unique_id) {
+    return failure(fmt::format("{}: found board {}, expected {}", port_name_,
+                               serial_number_of(hello), serial_number_of(*hello_)));
+  }
+  if (hello.full_scale_counts != hello_->full_scale_counts ||
+      hello.reference_uv != hello_->reference_uv || hello.sensor_count != hello_->sensor_count) {
+    return failure(fmt::format(
+        "{}: the board now reads {} sensors to {} counts at {} uV, expected {}, {} and {}",
+        port_name_, hello.sensor_count, hello.full_scale_counts, hello.reference_uv,
+        hello_->sensor_count, hello_->full_scale_counts, hello_->reference_uv));
+  }
+  return {};
+}
+
+/// Has the board sample as it is asked to, or as it did before it started anew.
+tl::expected<void, Error> BoardSource::apply_settings(BoardConnection& connection,
+                                                      wire::Hello& hello) const {
+  if (!connection.port().two_way()) {
+    return {};
+  }
+  const auto done =
+      [&](std::string_view what,
+          const tl::expected<wire::Result, Error>& result) -> tl::expected<void, Error> {
+    if (result && *result != wire::Result::kDone) {
+      return failure(fmt::format("{}: the board refuses {}: {}", port_name_, what,
+                                 wire::name_of(wire::kResults, *result)));
+    }
+    return result ? tl::expected<void, Error>() : tl::unexpected(result.error());
+  };
+  const std::uint32_t rate_millihz =
+      settings_.rate_millihz.value_or(hello_.value_or(hello).rate_millihz);
+  if (hello.rate_millihz != rate_millihz) {
+    if (auto set = done(fmt::format("a rate of {} Hz", rate_millihz / 1e3),
+                        connection.request(wire::SetRate{.rate_millihz = rate_millihz}));
+        !set) {
+      return set;
+    }
+    hello.rate_millihz = rate_millihz;
+  }
+  const wire::EmitterMode mode =
+      settings_.emitter_mode.value_or(hello_.value_or(hello).emitter_mode);
+  if (hello.emitter_mode != mode) {
+    if (auto set =
+            done(fmt::format("the emitter mode {}", wire::name_of(wire::kEmitterModes, mode)),
+                 connection.request(wire::SetEmitter{.mode = mode}));
+        !set) {
+      return set;
+    }
+    hello.emitter_mode = mode;
+  }
+  return {};
+}
+
+/// Says that the board is there, the first time or again.
+void BoardSource::welcome(const wire::Hello& hello) {
+  const std::string serial_number = serial_number_of(hello);
+  if (!hello_) {
+    hello_ = hello;
+    boot_id_ = hello.boot_id;
+    if (hello.protocol != wire::kProtocolVersion) {
+      listener_.say(fmt::format(
+          "{}: the board speaks protocol {}, this program {}: what is not known is skipped",
+          port_name_, hello.protocol, wire::kProtocolVersion));
+    }
+  } else {
+    listener_.say(
+        fmt::format("{}: the board is back after {:.1f} s{}", port_name_,
+                    std::chrono::duration<double>(Clock::now() - lost_at_).count(),
+                    hello.boot_id == boot_id_ ? ", it had not stopped" : ", it has started anew"));
+  }
+  events_.push_back(event_of(
+      event::kConnected,
+      {{"port", port_name_}, {"serial", serial_number}, {"boot_id", std::int64_t{hello.boot_id}}}));
+  take(hello);
+}
+
+tl::expected<bool, Error> BoardSource::read(Sample& sample) {
+  if (std::exchange(given_, false)) {
+    events_.clear();
+  }
+  while (!listener_.stop_requested()) {
+    if (!connection_) {
+      if (auto connected = connect(); !connected) {
+        return tl::unexpected(connected.error());
+      }
+      continue;
+    }
+    const auto pinged = ping_if_due();
+    const auto frame = connection_->next_frame(kLook);
+    if (frame && *frame) {
+      heard_at_ = Clock::now();
+      if (take(**frame, sample)) {
+        given_ = true;
+        return true;
+      }
+    } else if (frame && connection_->ended() && !connection_->port().two_way()) {
+      return false;
+    }
+    tl::expected<void, Error> going_on;
+    if (!frame || connection_->ended()) {
+      going_on = lose(frame ? port_name_ + ": the board has gone" : frame.error().message);
+    } else if (Clock::now() - heard_at_ > longest_silence()) {
+      going_on = lose(port_name_ + ": the board is silent");
+    } else if (!pinged) {
+      going_on = lose(pinged.error().message);
+    }
+    if (!going_on) {
+      return tl::unexpected(going_on.error());
+    }
+  }
+  return false;
+}
+
+tl::expected<void, Error> BoardSource::lose(const std::string& reason) {
+  damaged_frames_ += connection_->damaged_frames();
+  connection_.reset();  // or the port would come back under another number
+  lost_at_ = Clock::now();
+  ++times_lost_;
+  events_.push_back(event_of(event::kDisconnected, {{"reason", reason}}));
+  if (settings_.once) {
+    return failure(reason);
+  }
+  listener_.say(reason + "; waiting for it");
+  return {};
+}
+
+bool BoardSource::take(const wire::Frame& frame, Sample& sample) {
+  const auto pass_on = [&]<wire::Message Kind>(const Kind& /*kind*/) {
+    if (const auto message = wire::read_message<Kind>(frame.payload)) {
+      take(*message);
+    }
+  };
+  switch (frame.type) {
+    case wire::SampleMessage::kType:
+      if (const auto message = wire::read_message<wire::SampleMessage>(frame.payload)) {
+        sample = wire::sample_of(*message);
+        sample.flags |= std::exchange(restarted_, false) ? flag::kRestarted : 0;
+        last_seq_ = sample.seq;
+        return true;
+      }
+      break;
+    case wire::Hello::kType:
+      pass_on(wire::Hello{});
+      break;
+    case wire::Status::kType:
+      pass_on(wire::Status{});
+      break;
+    case wire::Pong::kType:
+      pass_on(wire::Pong{});
+      break;
+    default:
+      break;  // a newer board says more
+  }
+  return false;
+}
+
+/// A board says Hello when it is asked to, and after each start.
+void BoardSource::take(const wire::Hello& hello) {
+  if (hello.boot_id == boot_id_) {
+    return;
+  }
+  boot_id_ = hello.boot_id;
+  restarted_ = true;
+  dropped_before_ = 0;
+  events_.push_back(
+      event_of(event::kBoot, {{"boot_id", std::int64_t{hello.boot_id}},
+                              {"serial", serial_number_of(hello)},
+                              {"board", std::string(wire::characters_of(hello.board))},
+                              {"firmware", std::string(wire::characters_of(hello.firmware))}}));
+}
+
+void BoardSource::take(const wire::Status& status) {
+  dropped_frames_ += status.dropped_frames - dropped_before_.value_or(status.dropped_frames);
+  dropped_before_ = status.dropped_frames;
+}
+
+void BoardSource::take(const wire::Pong& pong) {
+  if (pong.token == ping_token_) {
+    events_.push_back(event_of(event::kPong, {{"sent_us", ping_sent_us_},
+                                              {"t_us", static_cast<std::int64_t>(pong.t_us)},
+                                              {"received_us", monotonic_us()}}));
+  }
+}
+
+/// Asks for the board's clock, which keeps the connection alive as well.
+tl::expected<void, Error> BoardSource::ping_if_due() {
+  if (Clock::now() - pinged_at_ < kPingPeriod) {
+    return {};
+  }
+  pinged_at_ = Clock::now();
+  ping_sent_us_ = monotonic_us();
+  return connection_->send(wire::Ping{.token = ++ping_token_});
+}
+
+/// A Pong comes each second, or two samples.
+BoardSource::Clock::duration BoardSource::longest_silence() const {
+  return seconds(2) + milliseconds(2'000'000 / std::max(hello_->rate_millihz, 1U));
+}
+
+RecordingHeader BoardSource::header() const {
+  return {.acquisition = {.rate_hz = hello_->rate_millihz / 1e3,
+                          .full_scale_counts = static_cast<double>(hello_->full_scale_counts),
+                          .reference_v = hello_->reference_uv / 1e6,
+                          .sensor_count = hello_->sensor_count},
+          .board = std::string(wire::characters_of(hello_->board)),
+          .firmware = std::string(wire::characters_of(hello_->firmware)),
+          .started = ""};
+}
+
+std::string BoardSource::place() const {
+  return fmt::format("{}: seq {}", port_name_, last_seq_);
+}
+
+std::vector<std::string> BoardSource::complaints() const {
+  std::vector<std::string> complaints;
+  const std::uint64_t damaged =
+      damaged_frames_ + (connection_ ? connection_->damaged_frames() : 0U);
+  if (damaged > 0) {
+    complaints.push_back(fmt::format("{}: {} damaged frames", port_name_, damaged));
+  }
+  if (dropped_frames_ > 0) {
+    complaints.push_back(fmt::format("{}: the board dropped {} frames that nobody read in time",
+                                     port_name_, dropped_frames_));
+  }
+  if (times_lost_ > 0) {
+    complaints.push_back(fmt::format("{}: the board was lost {} times", port_name_, times_lost_));
+  }
+  return complaints;
+}
+
+}  // namespace penduline
