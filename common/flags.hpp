@@ -43,9 +43,8 @@ inline constexpr std::array kFlagDescriptions = {
                     "a conversion reached the end of the ADC's range in a sample that went in"},
     FlagDescription{flag::kOverrun, "overrun", "the device lost the windows before this sample"},
     FlagDescription{flag::kRestarted, "restarted", "the first sample after the device started"},
-    FlagDescription{
-        flag::kLate, "late",
-        "the device took the sample late by over an eighth of a period, or was held up"},
+    FlagDescription{flag::kLate, "late",
+                    "the device took the sample over an eighth of a period late, or was held up"},
     FlagDescription{flag::kDropout, "dropout",
                     "samples are lost before this one, or sampling paused"},
     FlagDescription{flag::kOutOfOrder, "out_of_order",
