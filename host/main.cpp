@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ int run_program(int argc, char** argv) {
 }  // namespace penduline
 
 int main(int argc, char** argv) {
+  // A file at the largest size that is allowed is an error of that file, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return penduline::run_program(argc, argv);
   } catch (const std::exception& error) {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "hal/replay/recording_format.hpp"
@@ -38,17 +37,13 @@ class EstimateOutput final : public EstimateSink {
   bool live_;
 };
 
-/// The recording of a run: written through at every sample, so that a crash costs no whole line.
-tl::expected<TextFile, Error> start_recording(const std::string& path,
-                                              const RecordingHeader& header) {
-  auto file = TextFile::create(path);
-  if (file) {
-    file->text() += recording_head(header);
-    if (const auto flushed = file->flush(); !flushed) {
-      return tl::unexpected(flushed.error());
-    }
+/// Tells what became of a recording. A live run is no worse for it.
+void conclude(const RecorderReport& report, bool live, SessionResult& result) {
+  log_info(report.text());
+  result.doubtful = result.doubtful || report.lost > 0;
+  if (!live && report.error && !result.error) {
+    result.error = report.error;
   }
-  return file;
 }
 
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
@@ -60,7 +55,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     return tl::unexpected(estimator.error());
   }
   const std::array<std::string, 4> paths{named_input(run.input_path), named_input(options.rig_path),
-                                         options.output_path, run.record_path};
+                                         options.output_path, run.recording.path};
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return tl::unexpected(distinct.error());
   }
@@ -73,17 +68,22 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                      .estimator = **estimator,
                      .output = output,
                      .recorder = {},
+                     .note = {},
                      .warn = log_warning};
-  std::optional<TextFile> recording;
-  if (!run.record_path.empty()) {
-    auto started = start_recording(run.record_path, header);
+  std::unique_ptr<Recorder> recorder;
+  if (!run.recording.path.empty()) {
+    auto started = start_recorder(run.recording, header, run.live, run.live && !run.paced);
     if (!started) {
       return tl::unexpected(started.error());
     }
-    recording.emplace(std::move(*started));
-    parts.recorder = [&](const Sample& sample) {
-      append_recording_row(recording->text(), sample, header.acquisition.sensor_count);
-      return recording->flush();
+    recorder = std::move(*started);
+    parts.recorder = [&](const Sample& sample) { return recorder->record(sample); };
+    parts.note = [&, boot_id = header.boot_id](const RecordingEvent& event) mutable {
+      const RecordingHeader now = source.header();
+      // A disk that takes no event takes no sample either, and that is told.
+      static_cast<void>(std::exchange(boot_id, now.boot_id) == now.boot_id
+                            ? recorder->record(event)
+                            : recorder->go_on_with(now, event.utc_us));
     };
   }
   SessionResult result =
@@ -91,6 +91,9 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   // What was estimated before a failure is not thrown away.
   if (const auto flushed = output.flush(); !flushed && !result.error) {
     result.error = flushed.error();
+  }
+  if (recorder) {
+    conclude(recorder->finish(), run.live, result);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "host/cli/exit_status.hpp"
+#include "host/cli/recording_options.hpp"
 #include "host/estimator/estimator.hpp"
 #include "host/output/estimate_writer.hpp"
 #include "host/rig_file.hpp"
@@ -26,10 +27,10 @@ struct EstimationOptions {
 
 /// How the samples come and what else happens to them.
 struct EstimationRun {
-  bool live = false;          ///< each row is written out at once
-  bool paced = false;         ///< each sample waits for its time
-  std::string record_path{};  ///< "": no recording
-  std::string input_path{};   ///< "": the samples come from no file
+  bool live = false;   ///< each row is written out at once
+  bool paced = false;  ///< each sample waits for its time
+  RecordingOptions recording{};
+  std::string input_path{};  ///< "": the samples come from no file
 };
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options);

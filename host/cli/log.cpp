@@ -8,7 +8,7 @@
 namespace penduline {
 
 void start_log() {
-  spdlog::set_default_logger(spdlog::stderr_color_st("penduline"));
+  spdlog::set_default_logger(spdlog::stderr_color_mt("penduline"));
   spdlog::set_pattern("%^%l%$: %v");
 }
 

@@ -9,7 +9,7 @@
 
 namespace penduline {
 
-/// Sends all messages to stderr as "warning: TEXT", coloured on a terminal.
+/// Sends all messages to stderr as "warning: TEXT", coloured on a terminal. Any thread may log.
 void start_log();
 
 void log_info(const std::string& text);

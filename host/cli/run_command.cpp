@@ -27,7 +27,7 @@ struct RunOptions {
   EstimationOptions estimation;
   SimulationOptions simulation;
   std::string uri;
-  std::string record_path;
+  RecordingOptions recording;
   bool fast = false;
   BoardSettings board;
 };
@@ -84,7 +84,7 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
   return estimate(options.estimation,
                   {.live = !options.fast,
                    .paced = !options.fast && !source.is_board(),
-                   .record_path = options.record_path,
+                   .recording = options.recording,
                    .input_path = source.path},
                   *rig, std::move(opened), stop);
 }
@@ -102,8 +102,7 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
           "file:PATH (a recording) or sim: (a simulated rig)")
       ->required();
   add_estimation_options(*command, options->estimation);
-  command->add_option("--record", options->record_path, "Also write the samples as a recording")
-      ->type_name("FILE");
+  add_recording_options(*command, options->recording);
   const std::map<std::string, wire::EmitterMode> modes = emitter_modes();
   command
       ->add_option("--emitter", options->board.emitter_mode,

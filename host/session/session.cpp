@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -87,6 +88,9 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
   Sample sample;
   for (std::uint64_t count = 0; !stop.requested(); ++count) {
     const auto more = parts.source.read(sample);
+    if (parts.note) {
+      std::ranges::for_each(parts.source.events(), parts.note);
+    }
     if (!more) {
       return tl::unexpected(more.error());
     }

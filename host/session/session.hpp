@@ -7,6 +7,7 @@
 #include <string>
 #include <tl/expected.hpp>
 
+#include "hal/replay/recording_event.hpp"
 #include "host/estimator/estimator.hpp"
 #include "host/output/estimate_sink.hpp"
 #include "host/session/stop_signal.hpp"
@@ -21,7 +22,9 @@ struct SessionParts {
   Estimator& estimator;
   EstimateSink& output;
   /// Told every sample before it is used; may be empty.
-  std::function<tl::expected<void, Error>(const Sample&)> recorder;
+  std::function<tl::expected<void, Error>(const Sample&)> recorder{};
+  /// Told what happened between two samples, in its place among them; may be empty.
+  std::function<void(const RecordingEvent&)> note{};
   /// Told, once for each kind, what is doubtful in the data.
   std::function<void(const std::string&)> warn;
 };

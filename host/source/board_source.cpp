@@ -176,6 +176,7 @@ void BoardSource::welcome(const wire::Hello& hello) {
   if (!hello_) {
     hello_ = hello;
     boot_id_ = hello.boot_id;
+    firmware_ = wire::characters_of(hello.firmware);
     if (hello.protocol != wire::kProtocolVersion) {
       listener_.say(fmt::format(
           "{}: the board speaks protocol {}, this program {}: what is not known is skipped",
@@ -279,13 +280,14 @@ void BoardSource::take(const wire::Hello& hello) {
     return;
   }
   boot_id_ = hello.boot_id;
+  firmware_ = wire::characters_of(hello.firmware);
   restarted_ = true;
   dropped_before_ = 0;
   events_.push_back(
       event_of(event::kBoot, {{"boot_id", std::int64_t{hello.boot_id}},
                               {"serial", serial_number_of(hello)},
                               {"board", std::string(wire::characters_of(hello.board))},
-                              {"firmware", std::string(wire::characters_of(hello.firmware))}}));
+                              {"firmware", firmware_}}));
 }
 
 void BoardSource::take(const wire::Status& status) {
@@ -322,8 +324,10 @@ RecordingHeader BoardSource::header() const {
                           .reference_v = hello_->reference_uv / 1e6,
                           .sensor_count = hello_->sensor_count},
           .board = std::string(wire::characters_of(hello_->board)),
-          .firmware = std::string(wire::characters_of(hello_->firmware)),
-          .started = ""};
+          .firmware = firmware_,
+          .started = "",
+          .serial = serial_number_of(*hello_),
+          .boot_id = boot_id_};
 }
 
 std::string BoardSource::place() const {

@@ -80,10 +80,11 @@ class BoardSource final : public Source {
   BoardListener listener_;
   std::optional<BoardConnection> connection_;
   std::optional<wire::Hello> hello_;  ///< what the board said first, with the settings applied
-  std::uint32_t boot_id_ = 0;
-  bool restarted_ = false;  ///< the next sample is the first after a start
-  std::string port_name_;   ///< of the last connection
-  std::string refusal_;     ///< why a board that is there was not taken, said last
+  std::uint32_t boot_id_ = 0;         ///< of the start that it is in
+  std::string firmware_;              ///< the same
+  bool restarted_ = false;            ///< the next sample is the first after a start
+  std::string port_name_;             ///< of the last connection
+  std::string refusal_;               ///< why a board that is there was not taken, said last
   Clock::time_point heard_at_;
   Clock::time_point lost_at_;
   Clock::time_point pinged_at_;

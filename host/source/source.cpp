@@ -3,6 +3,7 @@
 #include "host/source/source.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <utility>
