@@ -18,8 +18,8 @@ namespace {
 
 /// The least size of a page that Linux knows; larger ones are multiples of it.
 constexpr std::size_t kPageBytes = 4096;
-constexpr int kClosed = -1;
-constexpr int kReadableByAll = 0644;
+constexpr int kNoFile = -1;
+constexpr int kRecordingMode = 0644;
 
 std::error_code last_error() {
   return {errno, std::generic_category()};
@@ -65,10 +65,10 @@ tl::expected<RecordingFile, std::error_code> RecordingFile::create_regular(const
                                                                            std::string_view head) {
   constexpr int kMode = O_WRONLY | O_APPEND | O_CLOEXEC;
   // Without a name at first; where the file system cannot do that, with it.
-  int file = ::open(folder_of(path).c_str(), kMode | O_TMPFILE, kReadableByAll);
+  int file = ::open(folder_of(path).c_str(), kMode | O_TMPFILE, kRecordingMode);
   const bool nameless = file >= 0;
   if (!nameless && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
-    file = ::open(path.c_str(), kMode | O_CREAT | O_EXCL, kReadableByAll);
+    file = ::open(path.c_str(), kMode | O_CREAT | O_EXCL, kRecordingMode);
   }
   if (file < 0) {
     return tl::unexpected(last_error());
@@ -92,7 +92,7 @@ tl::expected<RecordingFile, std::error_code> RecordingFile::create_regular(const
 }
 
 RecordingFile::RecordingFile(RecordingFile&& other) noexcept
-    : file_(std::exchange(other.file_, kClosed)),
+    : file_(std::exchange(other.file_, kNoFile)),
       regular_(other.regular_),
       torn_(other.torn_),
       written_bytes_(other.written_bytes_),
@@ -110,7 +110,7 @@ RecordingFile& RecordingFile::operator=(RecordingFile&& other) noexcept {
 }
 
 RecordingFile::~RecordingFile() {
-  if (file_ != kClosed) {
+  if (file_ != kNoFile) {
     ::close(file_);
   }
 }
@@ -164,11 +164,11 @@ std::error_code RecordingFile::write() {
   return {};
 }
 
-std::error_code RecordingFile::sync() {
+std::error_code RecordingFile::sync() const {
   return regular_ && ::fdatasync(file_) != 0 ? last_error() : std::error_code();
 }
 
-std::error_code RecordingFile::sync_with_name(const std::string& path) {
+std::error_code RecordingFile::sync_with_name(const std::string& path) const {
   if (!regular_) {
     return {};
   }

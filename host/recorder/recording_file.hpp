@@ -34,9 +34,9 @@ class RecordingFile {
   /// Writes what waits. After an error whole lines of it are in the file and the others wait on.
   std::error_code write();
   /// Waits until what was written is on the disk.
-  std::error_code sync();
+  std::error_code sync() const;
   /// The same for the name of a file that was just created at `path`.
-  std::error_code sync_with_name(const std::string& path);
+  std::error_code sync_with_name(const std::string& path) const;
 
   /// A file, and no device or pipe.
   [[nodiscard]] bool regular() const { return regular_; }

@@ -15,7 +15,7 @@
 namespace penduline {
 namespace {
 
-constexpr std::size_t kLargeBytes = std::size_t{64} * 1024;
+constexpr std::size_t kWorthWritingBytes = std::size_t{64} * 1024;
 
 std::string shown(const std::string& path) {
   return path == "-" ? "standard output" : path;
@@ -153,7 +153,7 @@ tl::expected<void, Error> RecordingSeries::add(const RecordingEvent& event) {
 }
 
 tl::expected<void, Error> RecordingSeries::add_line(std::string_view line) {
-  if (file_->waiting().size() >= kLargeBytes) {
+  if (file_->waiting().size() >= kWorthWritingBytes) {
     if (auto written = write(); !written) {
       return written;
     }

@@ -60,7 +60,7 @@ class RecordTest(ProgramTest):
             process.wait()
             samples += self.assert_whole(path)
             path.unlink()
-        self.assertGreater(samples, 10_000)
+        self.assertGreater(samples, 1000)
 
     def test_a_recording_is_there_with_its_whole_head_or_not_at_all(self):
         rng = random.Random(5)
