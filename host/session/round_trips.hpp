@@ -19,20 +19,19 @@ class RoundTrips {
 
   [[nodiscard]] std::size_t count() const { return std::min(pushed_, kMost); }
   /// Both need one to be kept.
-  [[nodiscard]] std::int64_t shortest_us() const { return *std::min_element(kept_.begin(), end()); }
+  [[nodiscard]] std::int64_t shortest_us() const {
+    return *std::min_element(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(count()));
+  }
   [[nodiscard]] std::int64_t median_us() const {
     auto sorted = kept_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.begin() + (end() - kept_.begin()));
-    return *middle;
+    const std::size_t middle = count() / 2;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(middle),
+                     sorted.begin() + static_cast<std::ptrdiff_t>(count()));
+    return sorted[middle];
   }
 
  private:
   static constexpr std::size_t kMost = 256;
-
-  [[nodiscard]] std::array<std::int64_t, kMost>::const_iterator end() const {
-    return kept_.begin() + static_cast<std::ptrdiff_t>(count());
-  }
 
   std::array<std::int64_t, kMost> kept_{};
   std::size_t pushed_ = 0;

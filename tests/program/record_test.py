@@ -154,6 +154,23 @@ class RecordTest(ProgramTest):
         joined = "".join(part.read_text() for part in parts)
         self.assertEqual(run("replay", "-", "--rig", RIG, input=joined).stdout, live.stdout)
 
+    def test_pandas_reads_a_recording_with_fillers_and_events(self):
+        try:
+            import pandas  # pylint: disable=import-outside-toplevel
+        except ImportError:
+            self.skipTest("found no pandas (Debian's python3-pandas)")
+        path = self.folder / "rec.csv"
+        run("run", "sim:", "--rig", RIG, "--fast", "--seconds", 60, "--record", path)
+        text = path.read_text()
+        self.assertIn("\n#   ", text)
+        with_event = self.write("event.csv", text.replace(
+            "\n500,", '\n# event = { kind = "release", note = "x, \\"y\\" #" }\n500,'))
+        for recording in (path, with_event):
+            table = pandas.read_csv(recording, comment="#")
+            self.assertEqual(",".join(table.columns), NAMES)
+            self.assertEqual(list(table.seq), list(range(1200)))
+            self.assertEqual({str(kind) for kind in table.dtypes}, {"int64"})
+
     def test_a_board_that_starts_anew_replays_as_it_ran(self):
         recording, _ = self.simulate("--seconds", 5, rig="tcrt5000.toml")
         head, rows = recording.read_text().split(NAMES + "\n")
