@@ -96,7 +96,7 @@ void Recorder::run() {
       return;
     }
     // A disk that takes a line now and then is still full.
-    if (Clock::now() - last_failure_ >= settings_.retry_period) {
+    if (queue_.empty() && Clock::now() - last_failure_ >= settings_.retry_period) {
       tell_end_of_outage();
     }
     tell_losses();

@@ -104,6 +104,11 @@ std::uint64_t RecordingQueue::abandon(Error reason) {
   return static_cast<std::uint64_t>(samples);
 }
 
+bool RecordingQueue::empty() const {
+  const std::lock_guard lock(mutex_);
+  return entries_.empty();
+}
+
 std::uint64_t RecordingQueue::lost() const {
   const std::lock_guard lock(mutex_);
   return lost_;

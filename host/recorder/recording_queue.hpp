@@ -53,6 +53,8 @@ class RecordingQueue {
   /// samples they were.
   std::uint64_t abandon(Error reason);
 
+  /// Whether nothing waits to be taken.
+  [[nodiscard]] bool empty() const;
   /// Samples lost so far because the queue was full.
   [[nodiscard]] std::uint64_t lost() const;
 
