@@ -56,9 +56,12 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file at the largest size that is allowed is an error of that file, not the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
+  int status = 0;
   try {
-    return penduline::run_program(argc, argv);
+    status = penduline::run_program(argc, argv);
   } catch (const std::exception& error) {
-    return static_cast<int>(penduline::log_failure({error.what()}));
+    status = static_cast<int>(penduline::log_failure({error.what()}));
   }
+  penduline::finish_log();
+  return status;
 }

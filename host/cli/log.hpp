@@ -9,8 +9,13 @@
 
 namespace penduline {
 
-/// Sends all messages to stderr as "warning: TEXT", coloured on a terminal. Any thread may log.
+/// Sends all messages to stderr as "warning: TEXT", coloured on a terminal. Logging never waits: of
+/// more than 256 messages that nobody reads the oldest are lost. Any
+/// thread may log.
 void start_log();
+
+/// Waits until all messages are written; none may come after it.
+void finish_log();
 
 void log_info(const std::string& text);
 void log_warning(const std::string& text);
