@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -71,6 +73,16 @@ tl::expected<void, Error> TextFile::flush() {
     left.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
   }
   text_.clear();
+  return {};
+}
+
+tl::expected<void, Error> TextFile::write_piece() {
+  const ssize_t written =
+      ::write(file_, text_.data(), std::min(text_.size(), std::size_t{PIPE_BUF}));
+  if (written < 0 && errno != EINTR && errno != EAGAIN) {
+    return failure(fmt::format("{}: {}", name_, std::strerror(errno)));
+  }
+  text_.erase(0, written < 0 ? 0 : static_cast<std::size_t>(written));
   return {};
 }
 

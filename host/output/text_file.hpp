@@ -28,6 +28,13 @@ class TextFile {
   tl::expected<void, Error> flush_if_large();
   tl::expected<void, Error> flush();
 
+  /// Writes some of the text, in one call and no more than a pipe takes whole: where `descriptor`
+  /// is ready for it, that does not wait for the reader.
+  tl::expected<void, Error> write_piece();
+  [[nodiscard]] int descriptor() const { return file_; }
+  /// What messages call it.
+  [[nodiscard]] const std::string& name() const { return name_; }
+
  private:
   TextFile(std::string name, int file);
 

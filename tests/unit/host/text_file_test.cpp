@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <climits>
 #include <string>
 #include <utility>
 
+#include "tests/unit/host/fifo.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace {
@@ -54,6 +56,28 @@ TEST_CASE("A little text waits for more, a lot is written", "[output]") {
   REQUIRE(file->flush_if_large());
   CHECK(text_of(folder.path("out.csv")).size() == 200'005);
   CHECK(file->text().empty());
+}
+
+TEST_CASE("A piece is no more than a pipe takes whole", "[output]") {
+  const Fifo fifo;
+  auto file = TextFile::create(fifo.path());
+  REQUIRE(file);
+  file->text().assign(PIPE_BUF + 10, 'x');
+  REQUIRE(file->write_piece());
+  CHECK(fifo.read().size() == PIPE_BUF);
+  CHECK(file->text().size() == 10);
+  REQUIRE(file->write_piece());
+  CHECK(fifo.read().size() == 10);
+  CHECK(file->text().empty());
+}
+
+TEST_CASE("A piece that cannot be written is reported with the file's name", "[output]") {
+  auto file = TextFile::create("/dev/full");
+  REQUIRE(file);
+  file->text() += "one\n";
+  const auto written = file->write_piece();
+  REQUIRE_FALSE(written);
+  CHECK(written.error().message == "/dev/full: No space left on device");
 }
 
 TEST_CASE("A moved file goes on where it was", "[output]") {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes queued estimates as lines to a file, a pipe or a terminal that may stall.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/output/estimate_writer.hpp"
+#include "host/output/queued_output.hpp"
+#include "host/output/text_file.hpp"
+
+namespace penduline {
+
+class LineWriter final : public QueueWriter {
+ public:
+  LineWriter(TextFile file, EstimateFormat format);
+
+  [[nodiscard]] std::string name() const override { return file_.name(); }
+  /// Fails where the reader is gone or the file cannot be written; of the standard output a reader
+  /// that is gone ends the program by SIGPIPE, as it does with others in a pipeline, unless that is
+  /// ignored (as under systemd, and by libmosquitto).
+  tl::expected<void, Error> run(EstimateQueue& queue) override;
+
+ private:
+  void fill(EstimateQueue& queue);
+
+  TextFile file_;
+  EstimateFormat format_;
+  std::uint64_t rows_ = 0;  ///< in the file's text
+  std::string next_row_;    ///< what did not fit into that
+};
+
+}  // namespace penduline
