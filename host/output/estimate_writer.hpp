@@ -21,4 +21,8 @@ void append_estimate_head(std::string& text, EstimateFormat format);
 void append_estimate_row(std::string& text, const Estimate<double>& estimate,
                          EstimateFormat format);
 
+/// Appends one estimate as a JSON object with no line's end: `timestamp`, which is `unix_s` in
+/// seconds since 1970, then the columns.
+void append_estimate_message(std::string& text, const Estimate<double>& estimate, double unix_s);
+
 }  // namespace penduline

@@ -2,6 +2,8 @@
 // Tests of estimates as text: design.md's columns, whole and empty cells, JSON lines.
 #include "host/output/estimate_writer.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -48,7 +50,7 @@ std::string row(const Estimate<double>& estimate, EstimateFormat format) {
 }
 
 TEST_CASE("The CSV head is design.md's list of columns", "[output]") {
-  CHECK(head(EstimateFormat::kCsv) == std::string(kDesignColumns) + "\n");
+  CHECK(head(EstimateFormat::kCsv) == fmt::format("{}\n", kDesignColumns));
 }
 
 TEST_CASE("JSON lines have no head", "[output]") {
@@ -145,6 +147,15 @@ TEST_CASE("The largest seq of a recording and the largest flags are written in f
   const std::string text = row(
       {.seq = 9007199254740991, .flags = std::numeric_limits<Flags>::max()}, EstimateFormat::kCsv);
   CHECK(text == "0.000000,9007199254740991,,,,,,,,,,,4294967295\n");
+}
+
+TEST_CASE("A message is the JSON line with a timestamp before it and no line's end", "[output]") {
+  std::string message;
+  append_estimate_message(message, whole_estimate(), 1795275130.7626534);
+  std::string expected = row(whole_estimate(), EstimateFormat::kJsonLines);
+  expected.replace(0, 1, "{\"timestamp\":1795275130.762653,");
+  expected.pop_back();
+  CHECK(message == expected);
 }
 
 TEST_CASE("Rows are appended behind what is there", "[output]") {
