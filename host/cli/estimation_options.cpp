@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "hal/replay/recording_format.hpp"
 #include "host/cli/log.hpp"
@@ -15,27 +17,6 @@
 
 namespace penduline {
 namespace {
-
-/// Writes estimates to a file, live ones row by row.
-class EstimateOutput final : public EstimateSink {
- public:
-  EstimateOutput(TextFile file, EstimateFormat format, bool live)
-      : file_(std::move(file)), format_(format), live_(live) {
-    append_estimate_head(file_.text(), format_);
-  }
-
-  tl::expected<void, Error> take(const Estimate<double>& estimate) override {
-    append_estimate_row(file_.text(), estimate, format_);
-    return live_ ? file_.flush() : file_.flush_if_large();
-  }
-
-  tl::expected<void, Error> flush() { return file_.flush(); }
-
- private:
-  TextFile file_;
-  EstimateFormat format_;
-  bool live_;
-};
 
 /// Tells what became of a recording. A live run is no worse for it.
 void conclude(const RecorderReport& report, bool live, SessionResult& result) {
@@ -54,19 +35,23 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (!estimator) {
     return tl::unexpected(estimator.error());
   }
-  const std::array<std::string, 4> paths{named_input(run.input_path), named_input(options.rig_path),
-                                         options.output_path, run.recording.path};
+  std::vector<std::string> paths = output_paths(options.output);
+  const bool rows_on_stdout = std::ranges::count(paths, "-") > 0;
+  paths.insert(paths.end(),
+               {named_input(run.input_path), named_input(options.rig_path), run.recording.path});
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return tl::unexpected(distinct.error());
   }
-  auto file = TextFile::create(options.output_path);
-  if (!file) {
-    return tl::unexpected(file.error());
+  const EstimatorKind kind = options.estimator.kind;
+  // Estimates that come all at once, after the last sample, hold nothing up.
+  const auto outputs = open_outputs(options.output, run.live && !is_offline(kind),
+                                    {.rig = rig, .header = header, .estimator = kind});
+  if (!outputs) {
+    return tl::unexpected(outputs.error());
   }
-  EstimateOutput output(std::move(*file), options.format, run.live);
   SessionParts parts{.source = source,
                      .estimator = **estimator,
-                     .output = output,
+                     .output = **outputs,
                      .recorder = {},
                      .note = {},
                      .warn = log_warning};
@@ -76,6 +61,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     if (!started) {
       return tl::unexpected(started.error());
     }
+    (*outputs)->may_all_fail();
     recorder = std::move(*started);
     parts.recorder = [&](const Sample& sample) { return recorder->record(sample); };
     parts.note = [&, boot_id = header.boot_id](const RecordingEvent& event) mutable {
@@ -86,12 +72,16 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                             : recorder->go_on_with(now, event.utc_us));
     };
   }
-  SessionResult result =
-      run_session(parts, {.paced = run.paced, .rows_on_stdout = options.output_path == "-"}, stop);
+  SessionResult result = run_session(
+      parts, {.paced = run.paced, .live = run.live, .rows_on_stdout = rows_on_stdout}, stop);
   // What was estimated before a failure is not thrown away.
-  if (const auto flushed = output.flush(); !flushed && !result.error) {
-    result.error = flushed.error();
+  const auto finished = (*outputs)->finish([&](const std::string& output, std::uint64_t dropped) {
+    result.summary.count_dropped(output, dropped);
+  });
+  if (!finished && !result.error) {
+    result.error = finished.error();
   }
+  result.incomplete = (*outputs)->any_failed();
   if (recorder) {
     conclude(recorder->finish(), run.live, result);
   }
@@ -112,8 +102,6 @@ void add_rig_option(CLI::App& command, std::string& path) {
 void add_estimation_options(CLI::App& command, EstimationOptions& options) {
   const std::map<std::string, EstimatorKind> estimators{{"gn", EstimatorKind::kGaussNewton},
                                                         {"paper", EstimatorKind::kPaper}};
-  const std::map<std::string, EstimateFormat> formats{{"csv", EstimateFormat::kCsv},
-                                                      {"jsonl", EstimateFormat::kJsonLines}};
   add_rig_option(command, options.rig_path);
   command
       .add_option("--estimator", options.estimator.kind,
@@ -124,13 +112,7 @@ void add_estimation_options(CLI::App& command, EstimationOptions& options) {
       ->default_str("gn");
   command.add_flag("--align", options.estimator.align,
                    "With paper: take the filter's delay out of the rows' times (gn always does)");
-  command.add_option("--format", options.format, "How the estimates are written")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("csv|jsonl")
-      ->default_str("csv");
-  command.add_option("-o,--output", options.output_path, "Where to; - is the standard output")
-      ->type_name("FILE")
-      ->capture_default_str();
+  add_output_options(command, options.output);
   command.add_flag("--strict", options.strict,
                    "End with status 3 where the data had flagged problems");
   command.parse_complete_callback([&options] {
@@ -163,6 +145,9 @@ ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, 
   log_info(result->summary.text());
   if (result->error) {
     return log_failure(*result->error);
+  }
+  if (result->incomplete) {
+    return ExitStatus::kFailed;
   }
   return options.strict && result->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
 }

@@ -8,9 +8,9 @@
 #include <tl/expected.hpp>
 
 #include "host/cli/exit_status.hpp"
+#include "host/cli/output_options.hpp"
 #include "host/cli/recording_options.hpp"
 #include "host/estimator/estimator.hpp"
-#include "host/output/estimate_writer.hpp"
 #include "host/rig_file.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/source.hpp"
@@ -20,14 +20,13 @@ namespace penduline {
 struct EstimationOptions {
   std::string rig_path;
   EstimatorOptions estimator;
-  EstimateFormat format = EstimateFormat::kCsv;
-  std::string output_path = "-";
+  OutputOptions output;
   bool strict = false;
 };
 
 /// How the samples come and what else happens to them.
 struct EstimationRun {
-  bool live = false;   ///< each row is written out at once
+  bool live = false;   ///< no sample waits for an output
   bool paced = false;  ///< each sample waits for its time
   RecordingOptions recording{};
   std::string input_path{};  ///< "": the samples come from no file

@@ -68,7 +68,10 @@ void add_replay_command(CLI::App& program, ExitStatus& status) {
       "A row that cannot be computed has empty cells and says why in its flags.\n\n"
       "  penduline replay rec.csv --rig rig.toml -o angles.csv\n"
       "  penduline replay daq.csv --import t_s,x,y --rig rig.toml --format jsonl");
-  command->final_callback([options, &status] { status = replay(*options); });
+  command->final_callback([options, &status] {
+    refuse_network_outputs(options->estimation.output);
+    status = replay(*options);
+  });
 }
 
 }  // namespace penduline

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "common/wire/commands.hpp"
@@ -70,6 +72,15 @@ std::map<std::string, wire::EmitterMode> emitter_modes() {
   return modes;
 }
 
+/// Whether samples come at their own pace: not where a board's bytes lie in a file.
+bool is_live(const RunOptions& options, const SourceUri& source) {
+  std::error_code not_there;
+  const bool stored =
+      source.kind == SourceUri::Kind::kSerial &&
+      std::filesystem::is_regular_file(source.path == "-" ? "/dev/stdin" : source.path, not_there);
+  return !options.fast && !stored;
+}
+
 ExitStatus run(const RunOptions& options, const SourceUri& source) {
   const auto rig = load_rig(options.estimation.rig_path);
   if (!rig) {
@@ -82,7 +93,7 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
     return ExitStatus::kDone;
   }
   return estimate(options.estimation,
-                  {.live = !options.fast,
+                  {.live = is_live(options, source),
                    .paced = !options.fast && !source.is_board(),
                    .recording = options.recording,
                    .input_path = source.path},
@@ -115,9 +126,12 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
   add_simulation_options(*command, options->simulation,
                          "Until when a simulation runs; else endless");
   command->footer(
-      "Runs until the source ends or Ctrl-C. Angles go to stdout, the summary to stderr.\n\n"
+      "Runs until the source ends or Ctrl-C. Angles go to stdout, the summary to stderr. Sampling\n"
+      "waits for no output: one that stalls loses rows, which the summary counts.\n\n"
       "  penduline run sim: --rig rig.toml --case conical\n"
-      "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv");
+      "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv\n"
+      "  penduline run serial:/dev/ttyACM0 --rig rig.toml -o udp:localhost:9870 \\\n"
+      "    -o mqtt://broker/lab/rig1 -o angles.csv");
   command->final_callback([options, command, &status] {
     const auto source = parse_uri(options->uri);
     if (!source) {
@@ -133,6 +147,9 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       if (command->count(name) > 0 && !source->is_board()) {
         throw CLI::ValidationError(name, "is for a board only");
       }
+    }
+    if (!is_live(*options, *source) || is_offline(options->estimation.estimator.kind)) {
+      refuse_network_outputs(options->estimation.output);
     }
     status = run(*options, *source);
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "common/rig.hpp"
@@ -27,6 +28,16 @@ class Estimator {
 };
 
 enum class EstimatorKind { kPaper, kGaussNewton };
+
+/// What the command line calls it.
+[[nodiscard]] constexpr std::string_view estimator_name(EstimatorKind kind) {
+  return kind == EstimatorKind::kPaper ? "paper" : "gn";
+}
+
+/// Whether all its estimates come after the last sample.
+[[nodiscard]] constexpr bool is_offline(EstimatorKind kind) {
+  return kind == EstimatorKind::kPaper;
+}
 
 struct EstimatorOptions {
   EstimatorKind kind = EstimatorKind::kGaussNewton;

@@ -115,7 +115,7 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
                  ? tl::unexpected(taken.error())
                  : failure(fmt::format("{}: {}", parts.source.place(), taken.error().message));
     }
-    if (count % kSamplesPerLook == 0 && progress.due()) {
+    if (!options.live && count % kSamplesPerLook == 0 && progress.due()) {
       progress.draw(parts.source.progress());
     }
   }

@@ -31,12 +31,14 @@ struct SessionParts {
 
 struct SessionOptions {
   bool paced = false;           ///< hand on each sample at its own time, not as fast as possible
+  bool live = false;            ///< nothing may wait for a terminal: no progress bar
   bool rows_on_stdout = false;  ///< where they show the progress on a terminal
 };
 
 struct SessionResult {
   Summary summary;
   bool doubtful = false;         ///< a problem was flagged or complained of
+  bool incomplete = false;       ///< an output has failed on the way, which was said
   std::optional<Error> error{};  ///< why it failed; the summary counts what came before
 };
 

@@ -34,6 +34,10 @@ Flags Summary::count(const Estimate<double>& estimate) {
   return fresh;
 }
 
+void Summary::count_dropped(const std::string& output, std::uint64_t rows) {
+  dropped_.emplace_back(output, rows);
+}
+
 std::optional<double> Summary::rate_hz() const {
   const Steps& most = paused_.count > unbroken_.count ? paused_ : unbroken_;
   if (most.count == 0) {
@@ -64,6 +68,11 @@ std::string Summary::text() const {
       text += fmt::format("{}{} {}", separator, flagged_[i], kFlagDescriptions[i].name);
       separator = ", ";
     }
+  }
+  separator = "; dropped: ";
+  for (const auto& [output, rows] : dropped_) {
+    text += fmt::format("{}{} rows by {}", separator, rows, output);
+    separator = ", ";
   }
   return text;
 }

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/continuity.hpp"
 #include "common/estimate.hpp"
@@ -22,6 +24,8 @@ class Summary {
   void count(const Sample& sample);
   /// Counts an estimate and returns its flags that had not been seen before.
   Flags count(const Estimate<double>& estimate);
+  /// Counts rows that did not come through an output.
+  void count_dropped(const std::string& output, std::uint64_t rows);
 
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
 
@@ -32,7 +36,8 @@ class Summary {
   /// Whether any flag but the ordinary ones was seen.
   [[nodiscard]] bool has_problems() const { return (seen_ & ~flag::kOrdinary) != 0; }
 
-  /// In words, for a person: "463 samples at 20.000 Hz, 0 lost, 448 with angles; flagged: ...".
+  /// In words, for a person: "463 samples at 20.000 Hz, 0 lost, 448 with angles; flagged: ...;
+  /// dropped: 12 rows by standard output".
   [[nodiscard]] std::string text() const;
 
  private:
@@ -55,6 +60,7 @@ class Summary {
   };
   Steps unbroken_;
   Steps paused_;
+  std::vector<std::pair<std::string, std::uint64_t>> dropped_;  ///< by outputs
 };
 
 }  // namespace penduline

@@ -98,6 +98,17 @@ TEST_CASE("Flags are counted in the order of their bits", "[session]") {
         "0 samples, 0 lost, 0 with angles; flagged: 1 saturated, 2 filling, 1 no_solution");
 }
 
+TEST_CASE("Rows that an output dropped are said behind the flags", "[session]") {
+  Summary summary = at_20_hz();
+  summary.count(flagged(flag::kFilling));
+  summary.count_dropped("standard output", 12);
+  summary.count_dropped("udp:localhost:9870", 1);
+  CHECK(summary.text() ==
+        "0 samples, 0 lost, 0 with angles; flagged: 1 filling; dropped: 12 rows by standard "
+        "output, 1 rows by udp:localhost:9870");
+  CHECK_FALSE(summary.has_problems());
+}
+
 TEST_CASE("A flag is fresh once", "[session]") {
   Summary summary = at_20_hz();
   CHECK(summary.count(flagged(flag::kMissing)) == flag::kMissing);
