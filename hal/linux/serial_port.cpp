@@ -88,6 +88,7 @@ SerialPort::SerialPort(std::string name, int file, bool two_way)
 
 SerialPort::~SerialPort() {
   if (file_ > STDERR_FILENO) {
+    ::tcflush(file_, TCOFLUSH);  // or closing would wait for a board that reads nothing
     ::close(file_);
   }
 }

@@ -66,10 +66,11 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     parts.recorder = [&](const Sample& sample) { return recorder->record(sample); };
     parts.note = [&, boot_id = header.boot_id](const RecordingEvent& event) mutable {
       const RecordingHeader now = source.header();
+      const bool new_start =
+          event.kind == event::kBoot && std::exchange(boot_id, now.boot_id) != now.boot_id;
       // A disk that takes no event takes no sample either, and that is told.
-      static_cast<void>(std::exchange(boot_id, now.boot_id) == now.boot_id
-                            ? recorder->record(event)
-                            : recorder->go_on_with(now, event.utc_us));
+      static_cast<void>(new_start ? recorder->go_on_with(now, event.utc_us)
+                                  : recorder->record(event));
     };
   }
   SessionResult result = run_session(
