@@ -83,9 +83,10 @@ class OutputsTest(ProgramTest):
             shown += os.read(screen, 65536)
         self.assertEqual(process.wait(timeout=60), 0)
         said = [line for line in shown.decode(errors="replace").splitlines() if " samples " in line]
-        self.assertEqual(len(said), 2, said)
+        self.assertEqual(len(said), 3, said)
         self.assertIn("samples are lost before this one", said[0])
-        self.assertIn("3999 samples at 2000.000 Hz, 1 lost", said[1])
+        self.assertIn("recorded 3999 samples", said[1])
+        self.assertIn("3999 samples at 2000.000 Hz, 1 lost", said[2])
 
     def test_a_reader_of_stdout_that_goes_ends_the_run_as_in_any_pipeline(self):
         process = self.start(stdout=subprocess.PIPE)
