@@ -29,6 +29,20 @@ bool failed_for_good(ssize_t result) {
   return result < 0 && errno != EAGAIN && errno != EINTR;
 }
 
+/// No echo, no lines, no characters with a meaning: bytes pass as they are.
+bool make_raw(int descriptor) {
+  termios terminal{};
+  if (::tcgetattr(descriptor, &terminal) != 0) {
+    return false;
+  }
+  ::cfmakeraw(&terminal);
+  return ::tcsetattr(descriptor, TCSANOW, &terminal) == 0;
+}
+
+tl::unexpected<Error> system_failure(const std::string& name) {
+  return failure(fmt::format("{}: {}", name, std::strerror(errno)));
+}
+
 }  // namespace
 
 std::size_t FileLink::write(std::span<const std::uint8_t> bytes) {
@@ -58,33 +72,38 @@ bool FileLink::wait_for_room(int milliseconds) const {
   return is_ready(out_, POLLOUT, milliseconds);
 }
 
-tl::expected<PseudoTerminal, Error> PseudoTerminal::open() {
-  PseudoTerminal pair;
+tl::expected<Terminal, Error> Terminal::open_pseudo() {
+  Terminal pair;
   std::array<char, 64> path{};
-  termios terminal{};
   pair.ours_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (pair.ours_ < 0 || ::grantpt(pair.ours_) != 0 || ::unlockpt(pair.ours_) != 0 ||
       ::ptsname_r(pair.ours_, path.data(), path.size()) != 0) {
-    return failure(fmt::format("pty: {}", std::strerror(errno)));
+    return system_failure("pty");
   }
   pair.path_ = path.data();
   pair.theirs_ = ::open(path.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (pair.theirs_ < 0 || ::tcgetattr(pair.theirs_, &terminal) != 0) {
-    return failure(fmt::format("{}: {}", pair.path_, std::strerror(errno)));
-  }
-  ::cfmakeraw(&terminal);  // bytes pass as they are
-  if (::tcsetattr(pair.theirs_, TCSANOW, &terminal) != 0) {
-    return failure(fmt::format("{}: {}", pair.path_, std::strerror(errno)));
+  if (pair.theirs_ < 0 || !make_raw(pair.theirs_)) {
+    return system_failure(pair.path_);
   }
   return pair;
 }
 
-PseudoTerminal::PseudoTerminal(PseudoTerminal&& other) noexcept
+tl::expected<Terminal, Error> Terminal::open_device(const std::string& path) {
+  Terminal device;
+  device.path_ = path;
+  device.ours_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (device.ours_ < 0 || !make_raw(device.ours_)) {
+    return system_failure(path);
+  }
+  return device;
+}
+
+Terminal::Terminal(Terminal&& other) noexcept
     : ours_(std::exchange(other.ours_, -1)),
       theirs_(std::exchange(other.theirs_, -1)),
       path_(std::move(other.path_)) {}
 
-PseudoTerminal::~PseudoTerminal() {
+Terminal::~Terminal() {
   for (const int descriptor : {ours_, theirs_}) {
     if (descriptor >= 0) {
       ::close(descriptor);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// File descriptors as the simulated board's link: a pseudo-terminal, or stdin and stdout.
+// File descriptors as the simulated board's link: a terminal, or stdin and stdout.
 #pragma once
 
 #include <cstddef>
@@ -41,24 +41,28 @@ class FileLink {
 
 static_assert(ByteLink<FileLink>);
 
-/// A pseudo-terminal whose other end any program may open, again and again, as a serial port.
-class PseudoTerminal {
+/// The board's end of a line of terminals, which passes every byte as it is.
+class Terminal {
  public:
-  [[nodiscard]] static tl::expected<PseudoTerminal, Error> open();
+  /// A new pseudo-terminal whose other end any program may open, again and again, as a serial port.
+  [[nodiscard]] static tl::expected<Terminal, Error> open_pseudo();
+  /// A device that is there: a serial port, or a USB gadget's /dev/ttyGS0. Fails with the path and
+  /// the system's reason.
+  [[nodiscard]] static tl::expected<Terminal, Error> open_device(const std::string& path);
 
-  PseudoTerminal(const PseudoTerminal&) = delete;
-  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
-  PseudoTerminal(PseudoTerminal&& other) noexcept;
-  PseudoTerminal& operator=(PseudoTerminal&& other) = delete;
-  ~PseudoTerminal();
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  Terminal(Terminal&& other) noexcept;
+  Terminal& operator=(Terminal&& other) = delete;
+  ~Terminal();
 
   /// The end of the board.
   [[nodiscard]] int descriptor() const { return ours_; }
-  /// The end to be opened, "/dev/pts/3".
+  /// The end to be opened, "/dev/pts/3"; of a device itself.
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  PseudoTerminal() = default;
+  Terminal() = default;
 
   int ours_ = -1;
   int theirs_ = -1;  ///< held open, so that bytes wait while no program has it open

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# `penduline-sim-board`: the firmware as a process, on stdout, on a pseudo-terminal, and its end.
+# `penduline-sim-board`: the firmware as a process, on stdout, on a terminal, and its end.
 import os
 import re
 import select
@@ -92,11 +92,9 @@ class StreamTest(ProgramTest):
         process.stderr.close()
 
 
-@unittest.skipUnless(os.path.exists("/dev/pts/ptmx"), "no pseudo-terminals: /dev/pts is not mounted")
-class PseudoTerminalTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.process = subprocess.Popen([BOARD, *PAPER], stderr=subprocess.PIPE, text=True)
+class TerminalTest(ProgramTest):
+    def start(self, *options):
+        self.process = subprocess.Popen([BOARD, *PAPER, *options], stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.end)
         self.path = re.fullmatch(r"info: link (/dev/pts/\d+)\n",
                                  self.process.stderr.readline()).group(1)
@@ -115,6 +113,30 @@ class PseudoTerminalTest(ProgramTest):
             if select.select([port], [], [], 1)[0]:
                 stream += os.read(port, 4096)
         return messages(stream)
+
+
+WITHOUT_PTS = not os.path.exists("/dev/pts/ptmx")
+
+
+@unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+class DeviceTest(TerminalTest):
+    def test_a_device_that_is_there_is_its_link_until_it_hangs_up(self):
+        port, device = os.openpty()
+        self.start("--link", os.ttyname(device))
+        self.assertEqual(self.path, os.ttyname(device))
+        os.close(device)
+        os.write(port, wire.encode("AskHello", 10))  # a terminal that is not raw takes 10 for a new line
+        found = self.read_until(port, lambda found: only("Reply", found) and only("Sample", found))
+        self.assertEqual([reply.token for reply in only("Reply", found)], [10])
+        os.close(port)
+        self.assertEqual(self.process.wait(timeout=30), 0)
+
+
+@unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+class PseudoTerminalTest(TerminalTest):
+    def setUp(self):
+        super().setUp()
+        self.start()
 
     def test_it_streams_in_real_time_and_answers(self):
         port = os.open(self.path, os.O_RDWR | os.O_NOCTTY)
@@ -166,6 +188,12 @@ class RefusalTest(ProgramTest):
         self.assertIn("Is a directory", self.refusal(*PAPER, "--store", self.folder))
         too_long = self.write("long", "x" * 5000)
         self.assertIn("expected a store of 4096 bytes", self.refusal(*PAPER, "--store", too_long))
+
+    def test_a_link_that_is_no_serial_device_is_refused(self):
+        for path, why in (("/dev/null", "Inappropriate ioctl for device"),
+                          ("nothing", "No such file or directory")):
+            said = run_board(*PAPER, "--link", path, status=1)[1]
+            self.assertEqual(said, f"error: {path}: {why}\n")
 
     def test_what_the_firmware_decides_is_no_option(self):
         for option in ("--rate", "--adc-bits"):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penduline-sim-board`: the firmware as a Linux process, on a pseudo-terminal or on stdout.
+// `penduline-sim-board`: the firmware as a Linux process, on a terminal or on stdout.
 //
 // It stands among the tests because it needs both the firmware and the host's reader of rig files,
 // which know nothing of each other.
@@ -33,7 +33,7 @@ struct Options {
   SimulationOptions simulation;
   std::string rig_path;
   std::string store_path;
-  bool on_stdout = false;
+  std::string link = "pty";
   bool fast = false;
 };
 
@@ -103,9 +103,9 @@ ExitStatus run_board(Surroundings& surroundings, const Options& options) {
   return ExitStatus::kDone;
 }
 
-/// Makes what is around the board; `pty` is where it is not to be on stdout.
+/// Makes what is around the board; `terminal` is where it is not to be on stdout.
 tl::expected<Surroundings, Error> make_surroundings(const Options& options,
-                                                    const std::optional<sim::PseudoTerminal>& pty) {
+                                                    const std::optional<sim::Terminal>& terminal) {
   const auto file = load_rig(options.rig_path);
   if (!file) {
     return tl::unexpected(file.error());
@@ -120,11 +120,12 @@ tl::expected<Surroundings, Error> make_surroundings(const Options& options,
     return tl::unexpected(flash.error());
   }
   const SimulationSettings settings = simulation_settings(options.simulation, file->rig);
-  Surroundings surroundings{.rig = {file->rig, settings},
-                            .link = pty ? sim::FileLink(pty->descriptor(), pty->descriptor())
-                                        : sim::FileLink(STDIN_FILENO, STDOUT_FILENO),
-                            .flash = *flash,
-                            .serial_number = settings.seed};
+  Surroundings surroundings{
+      .rig = {file->rig, settings},
+      .link = terminal ? sim::FileLink(terminal->descriptor(), terminal->descriptor())
+                       : sim::FileLink(STDIN_FILENO, STDOUT_FILENO),
+      .flash = *flash,
+      .serial_number = settings.seed};
   // In real time two runs are two boots; as fast as possible one seed gives one stream.
   const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(
       std::chrono::system_clock::now().time_since_epoch());
@@ -134,20 +135,21 @@ tl::expected<Surroundings, Error> make_surroundings(const Options& options,
 }
 
 ExitStatus start_board(const Options& options) {
-  std::optional<sim::PseudoTerminal> pty;
-  if (!options.on_stdout) {
-    auto opened = sim::PseudoTerminal::open();
+  std::optional<sim::Terminal> terminal;
+  if (options.link != "stdout") {
+    auto opened = options.link == "pty" ? sim::Terminal::open_pseudo()
+                                        : sim::Terminal::open_device(options.link);
     if (!opened) {
       return log_failure(opened.error());
     }
-    pty.emplace(std::move(*opened));
+    terminal.emplace(std::move(*opened));
   }
-  auto surroundings = make_surroundings(options, pty);
+  auto surroundings = make_surroundings(options, terminal);
   if (!surroundings) {
     return log_failure(surroundings.error());
   }
-  if (pty) {
-    log_info(fmt::format("link {}", pty->path()));
+  if (terminal) {
+    log_info(fmt::format("link {}", terminal->path()));
   }
   return run_board(*surroundings, options);
 }
@@ -155,12 +157,12 @@ ExitStatus start_board(const Options& options) {
 void add_options(CLI::App& program, Options& options) {
   add_rig_option(program, options.rig_path);
   program
-      .add_option_function<std::string>(
-          "--link", [&options](const std::string& link) { options.on_stdout = link == "stdout"; },
-          "pty: a new pseudo-terminal, told on stderr; stdout: frames on stdout, commands on stdin")
-      ->check(CLI::IsMember({"pty", "stdout"}))
-      ->type_name("pty|stdout")
-      ->default_str("pty");
+      .add_option(
+          "--link", options.link,
+          "pty: a new pseudo-terminal, told on stderr; stdout: frames on stdout, commands on "
+          "stdin;\nor the path of a serial device")
+      ->type_name("pty|stdout|PATH")
+      ->capture_default_str();
   program.add_flag("--fast", options.fast,
                    "Virtual time as fast as the other end reads, not the real one");
   program

@@ -160,7 +160,7 @@ TEST_CASE("A link never waits: no bytes, no room, and a broken end are told at o
 }
 
 TEST_CASE("A pseudo-terminal passes every byte as it is", "[sim_board]") {
-  auto pty = PseudoTerminal::open();
+  auto pty = Terminal::open_pseudo();
   if (!pty && !std::filesystem::exists("/dev/pts/ptmx")) {
     WARN("no pseudo-terminals here, for /dev/pts is not mounted: not tested");
     return;
