@@ -58,39 +58,51 @@ function settle(host, [type, code, value, , index]) {
   if (type === 2 && code === kClearFeature) host.resetToggles([index]);
 }
 
-/**
- * Enumerates as Linux does: device descriptor, address, descriptors, strings, configuration 1.
- * @param {(device: {device: Uint8Array, configuration: Uint8Array, strings: string[]}) => void} done
- */
-export function enumerate(host, done) {
-  const found = { device: null, configuration: null, strings: [] };
-  const get = (kind, index, length, then) => {
-    const language = kind === kString && index > 0 ? 0x0409 : 0;
-    const packet = request(kDirectionIn, kGetDescriptor, (kind << 8) | index, language, length);
-    control(host, packet, undefined, (result) => {
-      if (result.status === 'cancelled') return;
-      if (result.status !== 'ok') host.chip.report(`USB: descriptor ${kind}.${index} refused`);
-      else then(result.data);
-    });
-  };
-  const set = (code, value, then) => control(host, request(0, code, value, 0, 0), undefined, (result) => {
+/** Reads a descriptor; a device that refuses it is at fault. */
+function getDescriptor(host, kind, index, length, then) {
+  const language = kind === kString && index > 0 ? 0x0409 : 0;
+  const packet = request(kDirectionIn, kGetDescriptor, (kind << 8) | index, language, length);
+  control(host, packet, undefined, (result) => {
+    if (result.status === 'cancelled') return;
+    if (result.status !== 'ok') host.chip.report(`USB: descriptor ${kind}.${index} refused`);
+    else then(result.data);
+  });
+}
+
+/** A standard request without data, and the time that a device may take to follow it. */
+function set(host, code, value, then) {
+  control(host, request(0, code, value, 0, 0), undefined, (result) => {
     if (result.status === 'stall') host.chip.report(`USB: standard request ${code} refused`);
     else if (result.status === 'ok') host.chip.clock.createAlarm(then).schedule(2e6); // USB 2.0 sec. 9.2.6.3
   });
-  const text = (data) => Buffer.from(data.subarray(2)).toString('utf16le');
+}
+
+/**
+ * Begins an enumeration as Linux does: device descriptor, address, descriptors.
+ * @param {(device: {device: Uint8Array, configuration: Uint8Array}) => void} done
+ */
+export function identify(host, done) {
+  const get = (kind, length, then) => getDescriptor(host, kind, 0, length, then);
+  get(kDevice, 64, () => set(host, kSetAddress, 7, () => get(kDevice, 18, (device) =>
+    get(kConfiguration, 9, (head) => get(kConfiguration, head[2] | (head[3] << 8), (configuration) =>
+      done({ device, configuration }))))));
+}
+
+/**
+ * Enumerates to the end: then come the strings and configuration 1.
+ * @param {(device: {device: Uint8Array, configuration: Uint8Array, strings: string[]}) => void} done
+ */
+export function enumerate(host, done) {
+  const strings = [];
   const readStrings = (indices, then) => {
     if (indices.length === 0) return then();
-    get(kString, indices[0], 255, (data) => {
-      found.strings[indices[0]] = text(data);
+    getDescriptor(host, kString, indices[0], 255, (data) => {
+      strings[indices[0]] = Buffer.from(data.subarray(2)).toString('utf16le');
       readStrings(indices.slice(1), then);
     });
   };
-  get(kDevice, 0, 64, () => set(kSetAddress, 7, () => get(kDevice, 0, 18, (device) => {
-    found.device = device;
-    get(kConfiguration, 0, 9, (head) => get(kConfiguration, 0, head[2] | (head[3] << 8), (configuration) => {
-      found.configuration = configuration;
-      readStrings([0, device[14], device[15], device[16]].filter((index, at) => at === 0 || index > 0), () =>
-        set(kSetConfiguration, 1, () => done(found)));
-    }));
-  })));
+  identify(host, ({ device, configuration }) => {
+    readStrings([0, device[14], device[15], device[16]].filter((index, at) => at === 0 || index > 0), () =>
+      set(host, kSetConfiguration, 1, () => done({ device, configuration, strings })));
+  });
 }

@@ -119,6 +119,13 @@ export class UsbHost {
     if (this.controller.sieCtrl & kPullUp) this.controller.resetDevice();
   }
 
+  /** Resets the bus, as hosts do before they enumerate; `onAttach` is called once more when it is over. */
+  reset() {
+    this.#cancelAll();
+    this.attached = false;
+    this.controller.resetDevice();
+  }
+
   #takeOver() {
     const { controller } = this;
     controller.onUSBEnabled = undefined;
@@ -144,13 +151,17 @@ export class UsbHost {
     if (this.plugged) this.controller.resetDevice();
   }
 
-  #detach() {
+  #cancelAll() {
     this.recovery.cancel();
     for (const queue of this.queues.values()) {
       for (const { done } of queue.splice(0)) done({ status: 'cancelled' });
     }
     this.toggles.clear();
     this.address = 0;
+  }
+
+  #detach() {
+    this.#cancelAll();
     if (this.attached) this.onDetach();
     this.attached = false;
   }

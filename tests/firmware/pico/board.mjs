@@ -40,18 +40,25 @@ if (process.argv[1].endsWith('_test.mjs')) { // elsewhere `node:test` would writ
   });
 }
 
+/**
+ * A board with nothing on its USB.
+ * @param {object} [options] of the Emulator, and
+ * @param {(channel: number, seconds: number, lit: boolean) => number} [options.pins] code at a sensor's pin
+ * @param {string} [options.file] another image than the user's
+ */
+export function bareBoard({ pins = () => 1000, file = image, ...options } = {}) {
+  assert.ok(fs.existsSync(file), `found no ${file}: build it with cmake --preset pico && cmake --build --preset pico`);
+  const emulator = new Emulator(file, options);
+  emulator.analog((channel, seconds) =>
+    channel === kTemperatureChannel ? kTemperatureCode : pins(channel, seconds, emulator.pinLevel(kEmitterPin)));
+  return emulator;
+}
+
 /** A board with a USB host that reads it. */
 export class Board {
-  /**
-   * @param {object} [options] of the Emulator, and
-   * @param {(channel: number, seconds: number, lit: boolean) => number} [options.pins] code at a sensor's pin
-   * @param {string} [options.file] another image than the user's
-   */
-  constructor({ pins = () => 1000, file = image, ...options } = {}) {
-    assert.ok(fs.existsSync(file), `found no ${file}: build it with cmake --preset pico && cmake --build --preset pico`);
-    this.emulator = new Emulator(file, options);
-    this.emulator.analog((channel, seconds, emulator) =>
-      channel === kTemperatureChannel ? kTemperatureCode : pins(channel, seconds, emulator.pinLevel(kEmitterPin)));
+  /** @param {object} [options] of `bareBoard` */
+  constructor(options) {
+    this.emulator = bareBoard(options);
     this.port = new CdcPort(this.emulator);
     this.splitter = new FrameSplitter();
     boards.push(this);
