@@ -4,7 +4,7 @@
 BUILD_PACKAGES=(
   g++ cmake ninja-build ccache libeigen3-dev libboost-dev libfmt-dev libspdlog-dev
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
-  libusb-1.0-0-dev libudev-dev libmosquitto-dev pkgconf
+  libusb-1.0-0-dev libudev-dev libgpiod-dev libmosquitto-dev pkgconf
   catch2 librapidcheck-dev python3)
 
 # What the boards' firmware is built with.
@@ -13,6 +13,9 @@ CROSS_PACKAGES=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eab
 PICO_PACKAGES=("${CROSS_PACKAGES[@]}")
 # A Node.js from elsewhere comes with its own npm and does not go together with Debian's.
 command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
+
+# What the tests on a real kernel are made of (tests/kernel).
+KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev make xz-utils libelf1)
 
 # install_emulator: the RP2040's, an npm package of the version that its lock file names.
 install_emulator() {

@@ -62,6 +62,12 @@ def encode(command, *fields):
     return encode_body(bytes([kind]) + struct.pack("<" + layout, *fields))
 
 
+def encode_from_board(message):
+    """The frame of a message from the board, a tuple as `Splitter` gives it."""
+    kind = next(kind for kind, (record, _) in TYPES.items() if isinstance(message, record))
+    return encode_body(bytes([kind]) + TYPES[kind][1].pack(*message))
+
+
 class Splitter:
     """Cuts a stream into messages; what is not one is kept in `damaged`."""
 
