@@ -127,10 +127,9 @@ tl::expected<Surroundings, Error> make_surroundings(const Options& options,
       .flash = *flash,
       .serial_number = settings.seed};
   // In real time two runs are two boots; as fast as possible one seed gives one stream.
-  const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(
-      std::chrono::system_clock::now().time_since_epoch());
+  const std::int64_t now_ns = std::chrono::system_clock::now().time_since_epoch().count();
   surroundings.kept.boot_id = static_cast<std::uint32_t>(settings.seed) ^
-                              (options.fast ? 0U : static_cast<std::uint32_t>(now_s.count()));
+                              (options.fast ? 0U : static_cast<std::uint32_t>(now_ns));
   return surroundings;
 }
 

@@ -139,6 +139,11 @@ class Run:
                 raise AssertionError(f"ended early: {self.process.stderr.read().decode()}")
             self.output += more
 
+    def drain(self):
+        """Takes the rows that are on their way, until none comes for a while."""
+        while select.select([self.process.stdout], [], [], 0.3)[0]:
+            self.output += os.read(self.process.stdout.fileno(), 65536)
+
     def rows(self):
         """All whole rows that have come."""
         head, *rows = self.output.decode().split("\n")[:-1] or [""]

@@ -54,14 +54,31 @@ class RunTest(bench.BenchTest):
 
     def test_a_board_that_says_nothing_is_told_by_its_port(self):
         self.start(bench.PlayedBoard)
-        status, said = self.start(bench.Run).end()
+        status, said = self.start(bench.Run, "--once").end()
         self.assertEqual((status, said), (1, [
             "error: /dev/ttyACM0: found no bytes, expected a Penduline board that says Hello"]))
+
+    def test_libusb_reads_the_same_board_and_gives_the_port_back(self):
+        self.start(bench.SimulatedBoard)
+        run = self.start(bench.Run, source="usb:1209:0001:0000000000000001")
+        run.wait_for_rows(20)
+        self.assertFalse(bench.PORT.exists(), "the kernel's driver has let go")
+        run.interrupt()
+        self.assertEqual(run.end()[0], 0)
+        self.assert_unbroken(run.rows())
+        bench.wait_until(bench.PORT.exists, "the port to come back")
+
+    def test_auto_finds_the_board_by_its_usb_identity(self):
+        self.start(bench.SimulatedBoard)
+        run = self.start(bench.Run, source="auto")
+        run.wait_for_rows(1)
+        run.interrupt()
+        self.assertEqual(run.end()[0], 0)
 
     def test_no_port_is_told_by_its_name(self):
         bench.unplug()
         bench.wait_until(lambda: not bench.PORT.exists(), "the port to go")
-        status, said = self.start(bench.Run).end()
+        status, said = self.start(bench.Run, "--once").end()
         self.assertEqual((status, said), (1, ["error: /dev/ttyACM0: No such file or directory"]))
 
 
