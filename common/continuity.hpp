@@ -26,8 +26,11 @@ class Continuity {
   Verdict follow(const Sample& sample) {
     Verdict verdict;
     if (started_) {
-      if ((sample.flags & flag::kRestarted) != 0) {
-        verdict = {.flags = flag::kDropout, .unbroken = false};  // it did not sample meanwhile
+      const bool restarted = (sample.flags & flag::kRestarted) != 0;
+      const bool paused =
+          sample.seq == last_seq_ + 1 && sample.t_us - last_t_us_ > longest_step_us_;
+      if (restarted || paused) {
+        verdict = {.flags = flag::kDropout, .unbroken = false};
       } else if (sample.seq <= last_seq_ || sample.t_us <= last_t_us_) {
         verdict = {.flags = flag::kOutOfOrder, .unbroken = false};
         seq_before_stray_ = last_seq_;
@@ -36,8 +39,6 @@ class Continuity {
         const std::uint64_t from =
             sample.seq > seq_before_stray_ ? std::max(last_seq_, seq_before_stray_) : last_seq_;
         verdict = {.flags = flag::kDropout, .lost = sample.seq - from - 1, .unbroken = false};
-      } else if (sample.t_us - last_t_us_ > longest_step_us_) {
-        verdict = {.flags = flag::kDropout, .unbroken = false};
       }
     }
     started_ = true;

@@ -143,6 +143,9 @@ ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, 
   if (!result) {
     return log_failure(result.error());
   }
+  if (result->clock) {
+    log_info(result->clock->text());
+  }
   log_info(result->summary.text());
   if (result->error) {
     return log_failure(*result->error);

@@ -3,10 +3,10 @@
 #include "host/recorder/recorder.hpp"
 
 #include <fmt/format.h>
-#include <pthread.h>
 
-#include <csignal>
 #include <utility>
+
+#include "host/signals_blocked.hpp"
 
 namespace penduline {
 namespace {
@@ -15,23 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 /// How long entries may wait though nobody waits for them.
 constexpr std::chrono::milliseconds kLook{100};
-
-/// While it lives, new threads are not interrupted: Ctrl-C is for the session's thread, and a file
-/// that may not grow any more is an error like others.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all{};
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_{};
-};
 
 }  // namespace
 

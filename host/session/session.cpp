@@ -56,6 +56,16 @@ class CountingSink final : public EstimateSink {
   bool output_failed_ = false;
 };
 
+/// Follows the board's clock by the events of a stream.
+void follow(std::optional<DeviceClock>& clock, const RecordingEvent& event) {
+  if (event.kind == event::kBoot && clock) {
+    clock->reset();
+  } else if (const auto exchange = exchange_of(event)) {
+    clock = clock ? clock : DeviceClock();
+    clock->take(*exchange);
+  }
+}
+
 /// Keeps to the samples' own times.
 class Pacer {
  public:
@@ -81,15 +91,18 @@ class Pacer {
 /// Passes the samples on until the source ends, a stop is requested or something fails.
 tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionOptions& options,
                                        const StopSignal& stop, CountingSink& sink,
-                                       Summary& summary) {
+                                       SessionResult& result) {
   constexpr std::uint64_t kSamplesPerLook = 1024;
   Pacer pacer(stop);
   ProgressBar progress(options.rows_on_stdout);
   Sample sample;
   for (std::uint64_t count = 0; !stop.requested(); ++count) {
     const auto more = parts.source.read(sample);
-    if (parts.note) {
-      std::ranges::for_each(parts.source.events(), parts.note);
+    for (const RecordingEvent& event : parts.source.events()) {
+      follow(result.clock, event);
+      if (parts.note) {
+        parts.note(event);
+      }
     }
     if (!more) {
       return tl::unexpected(more.error());
@@ -104,7 +117,7 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
       }
     }
     sink.set_newest(sample);
-    summary.count(sample);
+    result.summary.count(sample);
     if (parts.recorder) {
       if (const auto recorded = parts.recorder(sample); !recorded) {
         return tl::unexpected(recorded.error());
@@ -128,7 +141,7 @@ SessionResult run_session(const SessionParts& parts, const SessionOptions& optio
                           const StopSignal& stop) {
   SessionResult result{.summary = Summary(parts.source.header().acquisition)};
   CountingSink sink(parts, result.summary);
-  auto outcome = pass_samples(parts, options, stop, sink, result.summary);
+  auto outcome = pass_samples(parts, options, stop, sink, result);
   const bool ended = outcome && !stop.requested();
   // An offline estimator answers now, also for what came before a failure.
   if (!sink.output_failed()) {

@@ -10,6 +10,7 @@
 #include "hal/replay/recording_event.hpp"
 #include "host/estimator/estimator.hpp"
 #include "host/output/estimate_sink.hpp"
+#include "host/session/device_clock.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/session/summary.hpp"
 #include "host/source/source.hpp"
@@ -37,9 +38,10 @@ struct SessionOptions {
 
 struct SessionResult {
   Summary summary;
-  bool doubtful = false;         ///< a problem was flagged or complained of
-  bool incomplete = false;       ///< an output has failed on the way, which was said
-  std::optional<Error> error{};  ///< why it failed; the summary counts what came before
+  std::optional<DeviceClock> clock{};  ///< the board's, where it was asked for it
+  bool doubtful = false;               ///< a problem was flagged or complained of
+  bool incomplete = false;             ///< an output has failed on the way, which was said
+  std::optional<Error> error{};        ///< why it failed; the summary counts what came before
 };
 
 /// Runs until the source ends, `stop` is requested or something fails. Ending early by request is

@@ -33,6 +33,6 @@ inline constexpr std::string_view kSourceForms =
     "auto, serial:PATH, usb:VID:PID, file:PATH or sim:";
 
 /// Reads a URI; fails saying what was found and expected.
-[[nodiscard]] tl::expected<SourceUri, Error> parse_uri(std::string_view uri);
+[[nodiscard]] tl::expected<SourceUri, Error> parse_uri(std::string_view text);
 
 }  // namespace penduline
