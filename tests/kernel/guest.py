@@ -9,7 +9,7 @@ from dataclasses import dataclass
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("PENDULINE_BUILD", ROOT / "build/release"))
 QEMU = "qemu-system-x86_64"
-MACHINE = ("-M", "pc,usb=off,hpet=off", "-accel", "tcg", "-m", "256", "-nodefaults", "-display", "none",
+MACHINE = ("-M", "pc,usb=off,hpet=off", "-accel", "tcg", "-m", "768", "-nodefaults", "-display", "none",
            "-no-reboot", "-serial", "stdio", "-device", "isa-debug-exit,iobase=0x501,iosize=2")
 COMMAND_LINE = ("console=ttyS0 quiet panic=-1 mitigations=off tsc=reliable no_timer_check "
                 "cryptomgr.notests nowatchdog nolapic_timer")
