@@ -243,15 +243,20 @@ class Rig(BoardTest):
         board.inject(*codes)
         # There is no light to switch here: dark readings would be as large as lit ones.
         self.assertEqual(board.command("SetEmitter", EMITTER_LIT)[0], "done")
-        self.assertEqual(board.command("SetRate", 100_000)[0], "done")
-        messages = board.run(3)
+        self.assertEqual(board.command("SetRate", 50_000)[0], "done")
+        messages, solved = [], []
+        for _ in range(30):  # a window that the machine misses has the board's filter start over
+            messages += board.run(1)
+            solved = [angle for angle in only("Angles", messages) if not math.isnan(angle.theta1_rad)]
+            if len(solved) > 20:
+                break
         angles = only("Angles", messages)
         begun = angles[1].seq  # the first sample may have come with the command's reply
         sampled = [sample.seq for sample in only("Sample", messages) if sample.seq >= begun]
         self.assertEqual([angle.seq for angle in angles[1:]], sampled[:len(angles) - 1])
         # Half a code is 2.4 um of gap, 0.12 mrad.
-        self.assertAlmostEqual(angles[-1].theta1_rad, theta1_rad, delta=2e-4)
-        self.assertAlmostEqual(angles[-1].theta2_rad, theta2_rad, delta=2e-4)
+        self.assertAlmostEqual(solved[-1].theta1_rad, theta1_rad, delta=2e-4)
+        self.assertAlmostEqual(solved[-1].theta2_rad, theta2_rad, delta=2e-4)
         self.assertEqual(board.status().store, wire.STORE_VALID)
         self.assert_sound(board)
 

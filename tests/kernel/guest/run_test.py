@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `penduline run` reads a board through the kernel's cdc_acm.
 import math
+import subprocess
 import unittest
 
 import bench
@@ -80,6 +81,34 @@ class RunTest(bench.BenchTest):
         bench.wait_until(lambda: not bench.PORT.exists(), "the port to go")
         status, said = self.start(bench.Run, "--once").end()
         self.assertEqual((status, said), (1, ["error: /dev/ttyACM0: No such file or directory"]))
+
+
+class DevicesTest(bench.BenchTest):
+    def devices(self, status=0):
+        done = subprocess.run([bench.PROGRAM, "devices"], capture_output=True, text=True,
+                              check=False, timeout=30)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return [line.split(maxsplit=4) for line in done.stdout.splitlines()], done.stderr
+
+    def test_a_board_is_listed_with_what_it_says_of_itself(self):
+        self.start(bench.SimulatedBoard)
+        rows, _ = self.devices()
+        self.assertEqual(rows[0][:4], ["port", "serial", "number", "board"])
+        port, serial_number, board, _, state = rows[1]
+        self.assertEqual((port, serial_number, board), ("/dev/ttyACM0", "0000000000000001", "sim"))
+        self.assertEqual(state, "samples at 20 Hz, emitters switched")
+
+    def test_a_board_that_is_read_is_left_alone(self):
+        self.start(bench.SimulatedBoard)
+        run = self.start(bench.Run)
+        run.wait_for_rows(1)
+        self.assertIn("another program has the port", " ".join(self.devices()[0][1]))
+        run.wait_for_rows(20)
+
+    def test_no_board_is_an_error_that_says_what_was_looked_for(self):
+        bench.unplug()
+        bench.wait_until(lambda: not bench.PORT.exists(), "the port to go")
+        self.assertIn("error: found no board: looked for", self.devices(status=1)[1])
 
 
 if __name__ == "__main__":

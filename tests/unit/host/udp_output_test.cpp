@@ -2,6 +2,7 @@
 // Tests of estimates by UDP: a datagram each, and what nobody hears is counted.
 #include "host/output/udp_output.hpp"
 
+#include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -136,6 +137,12 @@ TEST_CASE("By IPv6, too", "[output]") {
 }
 
 TEST_CASE("Of localhost's two addresses the one that is listened to is found", "[output]") {
+  addrinfo* found = nullptr;
+  if (::getaddrinfo("localhost", nullptr, nullptr, &found) != 0) {
+    WARN("this system does not know localhost: not tested");
+    return;
+  }
+  ::freeaddrinfo(found);
   const Listener listener(AF_INET);
   const auto output = output_to("localhost", listener.port());
   REQUIRE(output->take({.seq = 1}));
