@@ -18,12 +18,12 @@
 namespace penduline {
 namespace {
 
-constexpr std::size_t kColumns = 5;
-using Row = std::array<std::string, kColumns>;
+constexpr std::size_t kTableColumns = 5;
+using TableRow = std::array<std::string, kTableColumns>;
 
 /// What a port's device says of itself, or why it does not.
-Row describe(const SerialDevice& device, const StopSignal& stop) {
-  Row row = {device.path, device.identity.serial_number, "", "", ""};
+TableRow describe(const SerialDevice& device, const StopSignal& stop) {
+  TableRow row = {device.path, device.identity.serial_number, "", "", ""};
   auto& [path, serial_number, board, firmware, state] = row;
   auto port = SerialPort::open(device.path);
   if (!port) {
@@ -44,12 +44,12 @@ Row describe(const SerialDevice& device, const StopSignal& stop) {
 }
 
 /// The rows below each other, each column as wide as its widest cell.
-std::string table_of(const std::vector<Row>& rows) {
+std::string table_of(const std::vector<TableRow>& rows) {
   std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t column = 0; column + 1 < kColumns; ++column) {
+  for (const TableRow& row : rows) {
+    for (std::size_t column = 0; column + 1 < kTableColumns; ++column) {
       std::size_t width = 0;
-      for (const Row& other : rows) {
+      for (const TableRow& other : rows) {
         width = std::max(width, other[column].size());
       }
       text += fmt::format("{:<{}}  ", row[column], width);
@@ -62,7 +62,7 @@ std::string table_of(const std::vector<Row>& rows) {
 ExitStatus list_devices() {
   const StopSignal stop;
   const std::vector<SerialDevice> devices = serial_devices();
-  std::vector<Row> rows = {{"port", "serial number", "board", "firmware", "state"}};
+  std::vector<TableRow> rows = {{"port", "serial number", "board", "firmware", "state"}};
   for (const SerialDevice& device : devices) {
     if (device.is_penduline() || device.is_st_link()) {
       rows.push_back(describe(device, stop));

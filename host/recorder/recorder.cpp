@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// How long entries may wait though nobody waits for them.
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kIdleWait{100};
 
 }  // namespace
 
@@ -74,7 +74,7 @@ const RecorderReport& Recorder::finish() {
 
 void Recorder::run() {
   std::vector<RecordingEntry> entries;
-  while (queue_.take(entries, sync_due_.value_or(Clock::now() + kLook))) {
+  while (queue_.take(entries, sync_due_.value_or(Clock::now() + kIdleWait))) {
     if (!record_all(entries)) {
       return;
     }

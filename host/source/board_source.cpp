@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kLook{100};
+constexpr milliseconds kFrameWait{100};
 constexpr milliseconds kShortestWait{50};
 constexpr milliseconds kLongestWait{400};  // a board that is plugged in is to be seen at once
 constexpr seconds kPingPeriod{1};
@@ -206,7 +206,7 @@ tl::expected<bool, Error> BoardSource::read(Sample& sample) {
       continue;
     }
     const auto pinged = ping_if_due();
-    const auto frame = connection_->next_frame(kLook);
+    const auto frame = connection_->next_frame(kFrameWait);
     if (frame && *frame) {
       heard_at_ = Clock::now();
       if (take(**frame, sample)) {
