@@ -52,6 +52,17 @@ std::optional<RecordingEvent::Value> value_of(const toml::node& node) {
 
 }  // namespace
 
+RecordingEvent boot_event(const RecordingHeader& header, std::optional<std::int64_t> utc_us) {
+  RecordingEvent event{.kind = std::string(event::kBoot), .utc_us = utc_us};
+  if (header.boot_id) {
+    event.fields.push_back({"boot_id", std::int64_t{*header.boot_id}});
+  }
+  event.fields.push_back({"serial", header.serial});
+  event.fields.push_back({"board", header.board});
+  event.fields.push_back({"firmware", header.firmware});
+  return event;
+}
+
 std::string event_line(const RecordingEvent& event) {
   std::string line = fmt::format("{}{{ kind = {}", kEventStart, toml_quoted(event.kind));
   if (event.utc_us) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hal/error.hpp"
+#include "hal/replay/recording_format.hpp"
 
 namespace penduline {
 
@@ -70,6 +71,10 @@ inline constexpr std::array kEventKinds = {
     EventKindDescription{event::kUnrecorded, "samples",
                          "so many samples were measured here and could not be recorded"},
 };
+
+/// The event `boot` of a board that has started anew, of which `header` tells.
+[[nodiscard]] RecordingEvent boot_event(const RecordingHeader& header,
+                                        std::optional<std::int64_t> utc_us);
 
 /// What a line that is an event begins with.
 inline constexpr std::string_view kEventStart = "# event = ";

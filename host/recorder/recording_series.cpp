@@ -37,17 +37,6 @@ bool is_want_of_room(std::error_code reason) {
   return reason == std::errc::no_space_on_device || reason.value() == EDQUOT;
 }
 
-RecordingEvent boot_event(const RecordingHeader& header, std::optional<std::int64_t> utc_us) {
-  RecordingEvent event{.kind = std::string(event::kBoot), .utc_us = utc_us};
-  if (header.boot_id) {
-    event.fields.push_back({"boot_id", std::int64_t{*header.boot_id}});
-  }
-  event.fields.push_back({"serial", header.serial});
-  event.fields.push_back({"board", header.board});
-  event.fields.push_back({"firmware", header.firmware});
-  return event;
-}
-
 }  // namespace
 
 tl::expected<RecordingSeries, Error> RecordingSeries::start(SeriesSettings settings,

@@ -10,24 +10,19 @@
 
 #include "common/wire/commands.hpp"
 #include "common/wire/sample_message.hpp"
+#include "hal/linux/host_time.hpp"
+#include "host/session/clock_exchange.hpp"
 
 namespace penduline {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds kFrameWait{100};
 constexpr milliseconds kShortestWait{50};
 constexpr milliseconds kLongestWait{400};  // a board that is plugged in is to be seen at once
 constexpr seconds kPingPeriod{1};
-
-std::int64_t monotonic_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             steady_clock::now().time_since_epoch())
-      .count();
-}
 
 std::string serial_number_of(const wire::Hello& hello) {
   std::string text;
@@ -37,11 +32,8 @@ std::string serial_number_of(const wire::Hello& hello) {
   return text;
 }
 
-RecordingEvent event_of(std::string_view kind, std::vector<RecordingEvent::Field> fields) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return {.kind = std::string(kind),
-          .utc_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count(),
-          .fields = std::move(fields)};
+RecordingEvent event_now(std::string_view kind, std::vector<RecordingEvent::Field> fields) {
+  return {.kind = std::string(kind), .utc_us = host_time_now().utc_us, .fields = std::move(fields)};
 }
 
 }  // namespace
@@ -188,7 +180,7 @@ void BoardSource::welcome(const wire::Hello& hello) {
                     std::chrono::duration<double>(Clock::now() - lost_at_).count(),
                     hello.boot_id == boot_id_ ? ", it had not stopped" : ", it has started anew"));
   }
-  events_.push_back(event_of(
+  events_.push_back(event_now(
       event::kConnected,
       {{"port", port_name_}, {"serial", serial_number}, {"boot_id", std::int64_t{hello.boot_id}}}));
   take(hello);
@@ -236,7 +228,7 @@ tl::expected<void, Error> BoardSource::lose(const std::string& reason) {
   connection_.reset();  // or the port would come back under another number
   lost_at_ = Clock::now();
   ++times_lost_;
-  events_.push_back(event_of(event::kDisconnected, {{"reason", reason}}));
+  events_.push_back(event_now(event::kDisconnected, {{"reason", reason}}));
   if (settings_.once) {
     return failure(reason);
   }
@@ -283,11 +275,7 @@ void BoardSource::take(const wire::Hello& hello) {
   firmware_ = wire::characters_of(hello.firmware);
   restarted_ = true;
   dropped_before_ = 0;
-  events_.push_back(
-      event_of(event::kBoot, {{"boot_id", std::int64_t{hello.boot_id}},
-                              {"serial", serial_number_of(hello)},
-                              {"board", std::string(wire::characters_of(hello.board))},
-                              {"firmware", firmware_}}));
+  events_.push_back(boot_event(header(), host_time_now().utc_us));
 }
 
 void BoardSource::take(const wire::Status& status) {
@@ -297,9 +285,11 @@ void BoardSource::take(const wire::Status& status) {
 
 void BoardSource::take(const wire::Pong& pong) {
   if (pong.token == ping_token_) {
-    events_.push_back(event_of(event::kPong, {{"sent_us", ping_sent_us_},
-                                              {"t_us", static_cast<std::int64_t>(pong.t_us)},
-                                              {"received_us", monotonic_us()}}));
+    const HostTime now = host_time_now();
+    events_.push_back(event_of(ClockExchange{.sent_us = ping_sent_us_,
+                                             .t_us = static_cast<std::int64_t>(pong.t_us),
+                                             .received_us = now.monotonic_us,
+                                             .utc_us = now.utc_us}));
   }
 }
 
@@ -309,7 +299,7 @@ tl::expected<void, Error> BoardSource::ping_if_due() {
     return {};
   }
   pinged_at_ = Clock::now();
-  ping_sent_us_ = monotonic_us();
+  ping_sent_us_ = host_time_now().monotonic_us;
   return connection_->send(wire::Ping{.token = ++ping_token_});
 }
 
