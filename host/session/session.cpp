@@ -96,19 +96,22 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
   Pacer pacer(stop);
   ProgressBar progress(options.rows_on_stdout);
   Sample sample;
-  for (std::uint64_t count = 0; !stop.requested(); ++count) {
-    const auto more = parts.source.read(sample);
+  for (std::uint64_t count = 0; !stop.requested();) {
+    const auto read = parts.source.read(sample);
     for (const RecordingEvent& event : parts.source.events()) {
       follow(result.clock, event);
       if (parts.note) {
         parts.note(event);
       }
     }
-    if (!more) {
-      return tl::unexpected(more.error());
+    if (!read) {
+      return tl::unexpected(read.error());
     }
-    if (!*more) {
+    if (*read == ReadResult::kEnded) {
       break;
+    }
+    if (*read == ReadResult::kNothingYet) {
+      continue;
     }
     if (options.paced) {
       pacer.wait_for(sample);
@@ -128,7 +131,7 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
                  ? tl::unexpected(taken.error())
                  : failure(fmt::format("{}: {}", parts.source.place(), taken.error().message));
     }
-    if (!options.live && count % kSamplesPerLook == 0 && progress.due()) {
+    if (!options.live && count++ % kSamplesPerLook == 0 && progress.due()) {
       progress.draw(parts.source.progress());
     }
   }

@@ -20,7 +20,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kFrameWait{100};
-constexpr milliseconds kShortestWait{50};
 constexpr milliseconds kLongestWait{400};  // a board that is plugged in is to be seen at once
 constexpr seconds kPingPeriod{1};
 
@@ -43,35 +42,37 @@ tl::expected<std::unique_ptr<Source>, Error> BoardSource::open(PortOpener opener
                                                                BoardListener listener) {
   std::unique_ptr<BoardSource> source(
       new BoardSource(std::move(opener), settings, std::move(listener)));
-  if (auto connected = source->connect(); !connected) {
-    return tl::unexpected(connected.error());
-  }
-  if (!source->connection_) {
-    return failure("stopped before a board had said Hello");
+  while (!source->connection_) {
+    if (source->listener_.stop_requested()) {
+      return failure("stopped before a board had said Hello");
+    }
+    if (auto tried = source->try_again(); !tried) {
+      return tl::unexpected(tried.error());
+    }
   }
   return source;
 }
 
-/// Connects as soon as it can; returns without a connection where a stop is requested.
-tl::expected<void, Error> BoardSource::connect() {
-  milliseconds wait = kShortestWait;
-  bool said = hello_.has_value();  // that it has gone
-  while (!listener_.stop_requested()) {
-    const auto connected = try_to_connect();
-    if (connected || settings_.once || listener_.stop_requested()) {
-      return settings_.once ? connected : tl::expected<void, Error>();
-    }
-    if (!said) {
-      listener_.say(connected.error().message + "; waiting for it (Ctrl-C ends)");
-      said = true;
-    }
-    std::this_thread::sleep_for(wait);
-    wait = std::min(2 * wait, kLongestWait);
+/// One attempt to connect; after one that failed, a wait that is longer each time. Fails where
+/// nothing is to be waited for.
+tl::expected<void, Error> BoardSource::try_again() {
+  const auto connected = connect();
+  if (connected || listener_.stop_requested()) {
+    wait_ = kShortestWait;
+    return {};
   }
+  if (settings_.once) {
+    return connected;
+  }
+  if (!std::exchange(waiting_told_, true)) {
+    listener_.say(connected.error().message + "; waiting for it (Ctrl-C ends)");
+  }
+  std::this_thread::sleep_for(wait_);
+  wait_ = std::min(2 * wait_, kLongestWait);
   return {};
 }
 
-tl::expected<void, Error> BoardSource::try_to_connect() {
+tl::expected<void, Error> BoardSource::connect() {
   auto port = opener_();
   if (!port) {
     return tl::unexpected(port.error());
@@ -98,6 +99,7 @@ tl::expected<void, Error> BoardSource::try_to_connect() {
     connection->forget_kept_frames();  // nobody may have read them for long
   }
   connection_.emplace(std::move(*connection));
+  waiting_told_ = false;
   heard_at_ = Clock::now();
   pinged_at_ = Clock::time_point();
   welcome(hello);
@@ -186,41 +188,31 @@ void BoardSource::welcome(const wire::Hello& hello) {
   take(hello);
 }
 
-tl::expected<bool, Error> BoardSource::read(Sample& sample) {
-  if (std::exchange(given_, false)) {
+tl::expected<ReadResult, Error> BoardSource::read(Sample& sample) {
+  if (std::exchange(told_, true)) {
     events_.clear();
   }
-  while (!listener_.stop_requested()) {
-    if (!connection_) {
-      if (auto connected = connect(); !connected) {
-        return tl::unexpected(connected.error());
-      }
-      continue;
-    }
-    const auto pinged = ping_if_due();
-    const auto frame = connection_->next_frame(kFrameWait);
-    if (frame && *frame) {
-      heard_at_ = Clock::now();
-      if (take(**frame, sample)) {
-        given_ = true;
-        return true;
-      }
-    } else if (frame && connection_->ended() && !connection_->port().two_way()) {
-      return false;
-    }
-    tl::expected<void, Error> going_on;
-    if (!frame || connection_->ended()) {
-      going_on = lose(frame ? port_name_ + ": the board has gone" : frame.error().message);
-    } else if (Clock::now() - heard_at_ > longest_silence()) {
-      going_on = lose(port_name_ + ": the board is silent");
-    } else if (!pinged) {
-      going_on = lose(pinged.error().message);
-    }
-    if (!going_on) {
-      return tl::unexpected(going_on.error());
-    }
+  const auto nothing_yet = [] { return ReadResult::kNothingYet; };
+  if (!connection_) {
+    return try_again().map(nothing_yet);
   }
-  return false;
+  const auto pinged = ping_if_due();
+  const auto frame = connection_->next_frame(kFrameWait);
+  if (frame && *frame) {
+    heard_at_ = Clock::now();
+    return take(**frame, sample) ? ReadResult::kSample : ReadResult::kNothingYet;
+  }
+  if (frame && connection_->ended() && !connection_->port().two_way()) {
+    return ReadResult::kEnded;
+  }
+  if (!frame || connection_->ended()) {
+    return lose(frame ? port_name_ + ": the board has gone" : frame.error().message)
+        .map(nothing_yet);
+  }
+  if (Clock::now() - heard_at_ > longest_silence()) {
+    return lose(port_name_ + ": the board is silent").map(nothing_yet);
+  }
+  return pinged ? ReadResult::kNothingYet : lose(pinged.error().message).map(nothing_yet);
 }
 
 tl::expected<void, Error> BoardSource::lose(const std::string& reason) {
@@ -233,6 +225,7 @@ tl::expected<void, Error> BoardSource::lose(const std::string& reason) {
     return failure(reason);
   }
   listener_.say(reason + "; waiting for it");
+  waiting_told_ = true;
   return {};
 }
 

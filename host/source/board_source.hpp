@@ -47,9 +47,9 @@ class BoardSource final : public Source {
                                                            BoardListener listener);
 
   [[nodiscard]] RecordingHeader header() const override;
-  /// The next sample; waits for it, and for a board that has gone. False where a stop is requested,
-  /// or where the bytes of a file have ended.
-  tl::expected<bool, Error> read(Sample& sample) override;
+  /// The next sample; nothing yet where none is there in time, or no board. Ends with the bytes of
+  /// a file or a pipe.
+  tl::expected<ReadResult, Error> read(Sample& sample) override;
   [[nodiscard]] std::string place() const override;
   /// Nobody knows how much is still to come.
   [[nodiscard]] double progress() const override { return 0; }
@@ -58,12 +58,13 @@ class BoardSource final : public Source {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kShortestWait{50};
 
   BoardSource(PortOpener opener, const BoardSettings& settings, BoardListener listener)
       : opener_(std::move(opener)), settings_(settings), listener_(std::move(listener)) {}
 
+  tl::expected<void, Error> try_again();
   tl::expected<void, Error> connect();
-  tl::expected<void, Error> try_to_connect();
   [[nodiscard]] tl::expected<void, Error> check(const wire::Hello& hello) const;
   tl::expected<void, Error> apply_settings(BoardConnection& connection, wire::Hello& hello) const;
   void welcome(const wire::Hello& hello);
@@ -85,13 +86,15 @@ class BoardSource final : public Source {
   bool restarted_ = false;            ///< the next sample is the first after a start
   std::string port_name_;             ///< of the last connection
   std::string refusal_;               ///< why a board that is there was not taken, said last
+  bool waiting_told_ = false;         ///< that the board is waited for
+  std::chrono::milliseconds wait_ = kShortestWait;  ///< before the next attempt to connect
   Clock::time_point heard_at_;
   Clock::time_point lost_at_;
   Clock::time_point pinged_at_;
   std::uint32_t ping_token_ = 0;
   std::int64_t ping_sent_us_ = 0;
-  std::vector<RecordingEvent> events_;  ///< since the sample before
-  bool given_ = false;                  ///< a sample: the events up to it have been told
+  std::vector<RecordingEvent> events_;  ///< since the reading before
+  bool told_ = false;                   ///< the events, by a reading
   std::uint64_t last_seq_ = 0;
   std::uint64_t times_lost_ = 0;
   std::uint64_t damaged_frames_ = 0;             ///< of connections that are over

@@ -22,6 +22,11 @@ RecordingHeader header_of(const VoltageLogReader& reader) {
   return {.acquisition = reader.acquisition(), .board = "", .firmware = "", .started = ""};
 }
 
+/// What the streams of hal say, which always have a sample or none any more.
+tl::expected<ReadResult, Error> result_of(const tl::expected<bool, Error>& more) {
+  return more.map([](bool sample) { return sample ? ReadResult::kSample : ReadResult::kEnded; });
+}
+
 /// A reader of files.
 template <class Reader>
 class ReaderSource final : public Source {
@@ -29,7 +34,9 @@ class ReaderSource final : public Source {
   explicit ReaderSource(Reader reader) : reader_(std::move(reader)) {}
 
   [[nodiscard]] RecordingHeader header() const override { return header_of(reader_); }
-  tl::expected<bool, Error> read(Sample& sample) override { return reader_.read(sample); }
+  tl::expected<ReadResult, Error> read(Sample& sample) override {
+    return result_of(reader_.read(sample));
+  }
   [[nodiscard]] std::string place() const override { return reader_.place(); }
   [[nodiscard]] double progress() const override { return reader_.progress(); }
   [[nodiscard]] std::vector<std::string> complaints() const override {
@@ -62,7 +69,9 @@ class SimulatedSource final : public Source {
       : rig_(rig, settings) {}
 
   [[nodiscard]] RecordingHeader header() const override { return simulated_header(rig_); }
-  tl::expected<bool, Error> read(Sample& sample) override { return rig_.read(sample); }
+  tl::expected<ReadResult, Error> read(Sample& sample) override {
+    return result_of(rig_.read(sample));
+  }
   [[nodiscard]] std::string place() const override { return rig_.place(); }
   [[nodiscard]] double progress() const override { return rig_.progress(); }
   [[nodiscard]] std::vector<std::string> complaints() const override {

@@ -2,6 +2,7 @@
 // Sources of samples.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,13 @@
 
 namespace penduline {
 
+/// What reading a source came to.
+enum class ReadResult : std::uint8_t {
+  kSample,      ///< the next sample
+  kNothingYet,  ///< none for now, perhaps events; there may be more
+  kEnded,       ///< none, and there will be none
+};
+
 class Source {
  public:
   Source() = default;
@@ -26,15 +34,16 @@ class Source {
 
   /// What a recording of this source says before its first sample.
   [[nodiscard]] virtual RecordingHeader header() const = 0;
-  /// The next sample: true; false when the source has ended.
-  virtual tl::expected<bool, Error> read(Sample& sample) = 0;
+  /// The next sample. A source whose samples come in their own time waits for one for half a second
+  /// at the most.
+  virtual tl::expected<ReadResult, Error> read(Sample& sample) = 0;
   /// Where the sample read last stands, for messages.
   [[nodiscard]] virtual std::string place() const = 0;
   /// How much has been read, in 0..1; 0 where nobody knows.
   [[nodiscard]] virtual double progress() const = 0;
   /// What is wrong with the source and cost no sample, in words; grows while reading.
   [[nodiscard]] virtual std::vector<std::string> complaints() const = 0;
-  /// What happened between the sample read last and the one before; at the end, after the last.
+  /// What happened between the reading before and the last one.
   [[nodiscard]] virtual std::span<const RecordingEvent> events() const { return {}; }
 };
 

@@ -228,9 +228,11 @@ TEST_CASE("A file of a board's bytes ends, and a pipe that is no board's is refu
   const auto source = open(kHello + samples(0, 1));
   REQUIRE(source);
   Sample sample;
-  CHECK((*source)->read(sample).value());
-  CHECK((*source)->read(sample).value());
-  CHECK_FALSE((*source)->read(sample).value());
+  std::vector<ReadResult> results;
+  while (results.empty() || results.back() != ReadResult::kEnded) {
+    results.push_back((*source)->read(sample).value());
+  }
+  CHECK(std::ranges::count(results, ReadResult::kSample) == 2);
   CHECK((*source)->complaints().empty());
   CHECK(folder.relative(open("").error().message) ==
         "board: found no bytes, expected a Penduline board that says Hello");

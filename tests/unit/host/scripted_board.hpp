@@ -129,17 +129,19 @@ inline Heard listen(std::vector<Life> lives, const BoardSettings& settings = {})
   }
   heard.header = (*source)->header();
   Sample sample;
-  while (true) {
-    const auto more = (*source)->read(sample);
+  while (!over) {
+    const auto reading = (*source)->read(sample);
     note(**source);
-    if (!more) {
-      heard.error = more.error().message;
+    if (!reading) {
+      heard.error = reading.error().message;
       break;
     }
-    if (!*more) {
+    if (*reading == ReadResult::kEnded) {
       break;
     }
-    heard.samples.push_back(sample);
+    if (*reading == ReadResult::kSample) {
+      heard.samples.push_back(sample);
+    }
   }
   heard.complaints = (*source)->complaints();
   return heard;

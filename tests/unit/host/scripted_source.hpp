@@ -34,7 +34,7 @@ class ScriptedSource final : public Source {
   explicit ScriptedSource(std::vector<Sample> samples) : samples_(std::move(samples)) {}
 
   [[nodiscard]] RecordingHeader header() const override { return {}; }
-  tl::expected<bool, Error> read(Sample& sample) override {
+  tl::expected<ReadResult, Error> read(Sample& sample) override {
     if (on_read) {
       on_read(next_);
     }
@@ -42,10 +42,10 @@ class ScriptedSource final : public Source {
       return failure(place() + ": the script fails here");
     }
     if (next_ == samples_.size()) {
-      return false;
+      return ReadResult::kEnded;
     }
     sample = samples_[next_++];
-    return true;
+    return ReadResult::kSample;
   }
   [[nodiscard]] std::string place() const override { return fmt::format("script:{}", next_); }
   [[nodiscard]] double progress() const override { return 0; }
