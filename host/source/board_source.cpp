@@ -8,10 +8,10 @@
 #include <thread>
 #include <utility>
 
-#include "common/wire/commands.hpp"
 #include "common/wire/sample_message.hpp"
 #include "hal/linux/host_time.hpp"
 #include "host/session/clock_exchange.hpp"
+#include "host/source/board_sampling.hpp"
 
 namespace penduline {
 namespace {
@@ -22,14 +22,6 @@ using std::chrono::seconds;
 constexpr milliseconds kFrameWait{100};
 constexpr milliseconds kLongestWait{400};  // a board that is plugged in is to be seen at once
 constexpr seconds kPingPeriod{1};
-
-std::string serial_number_of(const wire::Hello& hello) {
-  std::string text;
-  for (const std::uint8_t byte : hello.unique_id) {
-    text += fmt::format("{:02X}", byte);
-  }
-  return text;
-}
 
 RecordingEvent event_now(std::string_view kind, std::vector<RecordingEvent::Field> fields) {
   return {.kind = std::string(kind), .utc_us = host_time_now().utc_us, .fields = std::move(fields)};
@@ -85,13 +77,19 @@ tl::expected<void, Error> BoardSource::connect() {
     return tl::unexpected(connection.error());
   }
   wire::Hello hello = connection->hello();
-  if (auto fits = check(hello); !fits) {
-    if (std::exchange(refusal_, fits.error().message) != refusal_) {
-      listener_.say(refusal_ + "; waiting for the right one");
+  if (hello_) {
+    if (auto same = require_same_board(port_name_, hello, *hello_); !same) {
+      if (std::exchange(refusal_, same.error().message) != refusal_) {
+        listener_.say(refusal_ + "; waiting for the right one");
+      }
+      return same;
     }
-    return fits;
   }
-  if (auto applied = apply_settings(*connection, hello); !applied) {
+  // As it is asked to, or as it did before it started anew.
+  const wire::Hello before = hello_.value_or(hello);
+  const Sampling wanted{.rate_millihz = settings_.rate_millihz.value_or(before.rate_millihz),
+                        .emitter_mode = settings_.emitter_mode.value_or(before.emitter_mode)};
+  if (auto applied = apply_sampling(wanted, *connection, hello); !applied) {
     settings_.once = settings_.once || !hello_;  // it would be refused again
     return applied;
   }
@@ -103,64 +101,6 @@ tl::expected<void, Error> BoardSource::connect() {
   heard_at_ = Clock::now();
   pinged_at_ = Clock::time_point();
   welcome(hello);
-  return {};
-}
-
-/// Whether it is the board that it was, and samples as it did.
-tl::expected<void, Error> BoardSource::check(const wire::Hello& hello) const {
-  if (!hello_) {
-    return {};
-  }
-  if (hello.unique_id != hello_->unique_id) {
-    return failure(fmt::format("{}: found board {}, expected {}", port_name_,
-                               serial_number_of(hello), serial_number_of(*hello_)));
-  }
-  if (hello.full_scale_counts != hello_->full_scale_counts ||
-      hello.reference_uv != hello_->reference_uv || hello.sensor_count != hello_->sensor_count) {
-    return failure(fmt::format(
-        "{}: the board now reads {} sensors to {} counts at {} uV, expected {}, {} and {}",
-        port_name_, hello.sensor_count, hello.full_scale_counts, hello.reference_uv,
-        hello_->sensor_count, hello_->full_scale_counts, hello_->reference_uv));
-  }
-  return {};
-}
-
-/// Has the board sample as it is asked to, or as it did before it started anew.
-tl::expected<void, Error> BoardSource::apply_settings(BoardConnection& connection,
-                                                      wire::Hello& hello) const {
-  if (!connection.port().two_way()) {
-    return {};
-  }
-  const auto done =
-      [&](std::string_view what,
-          const tl::expected<wire::Result, Error>& result) -> tl::expected<void, Error> {
-    if (result && *result != wire::Result::kDone) {
-      return failure(fmt::format("{}: the board refuses {}: {}", port_name_, what,
-                                 wire::name_of(wire::kResults, *result)));
-    }
-    return result ? tl::expected<void, Error>() : tl::unexpected(result.error());
-  };
-  const std::uint32_t rate_millihz =
-      settings_.rate_millihz.value_or(hello_.value_or(hello).rate_millihz);
-  if (hello.rate_millihz != rate_millihz) {
-    if (auto set = done(fmt::format("a rate of {} Hz", rate_millihz / 1e3),
-                        connection.request(wire::SetRate{.rate_millihz = rate_millihz}));
-        !set) {
-      return set;
-    }
-    hello.rate_millihz = rate_millihz;
-  }
-  const wire::EmitterMode mode =
-      settings_.emitter_mode.value_or(hello_.value_or(hello).emitter_mode);
-  if (hello.emitter_mode != mode) {
-    if (auto set =
-            done(fmt::format("the emitter mode {}", wire::name_of(wire::kEmitterModes, mode)),
-                 connection.request(wire::SetEmitter{.mode = mode}));
-        !set) {
-      return set;
-    }
-    hello.emitter_mode = mode;
-  }
   return {};
 }
 

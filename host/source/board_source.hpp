@@ -65,8 +65,6 @@ class BoardSource final : public Source {
 
   tl::expected<void, Error> try_again();
   tl::expected<void, Error> connect();
-  [[nodiscard]] tl::expected<void, Error> check(const wire::Hello& hello) const;
-  tl::expected<void, Error> apply_settings(BoardConnection& connection, wire::Hello& hello) const;
   void welcome(const wire::Hello& hello);
   tl::expected<void, Error> lose(const std::string& reason);
   bool take(const wire::Frame& frame, Sample& sample);
