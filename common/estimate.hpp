@@ -27,9 +27,10 @@ struct Estimate {
   std::int64_t t_us = 0;  ///< the moment that the angles refer to, in device time
   std::uint64_t seq = 0;  ///< the newest sample that went in
   std::optional<Attitude> attitude{};
-  std::optional<Pair> omega_rad_s{};   ///< rates, from estimators that know them
-  std::optional<Pair> sigma_rad{};     ///< standard deviations, from estimators that know them
-  std::optional<Scalar> residual_m{};  ///< RMS misfit of the gaps
+  std::optional<Pair> omega_rad_s{};     ///< rates, from estimators that know them
+  std::optional<Pair> sigma_rad{};       ///< standard deviations, from estimators that know them
+  std::optional<Scalar> residual_m{};    ///< RMS misfit of the gaps
+  std::optional<std::int64_t> utc_us{};  ///< `t_us` since 1970, where a host knows it
   Flags flags = 0;
 };
 

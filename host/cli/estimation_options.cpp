@@ -83,6 +83,9 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     result.error = finished.error();
   }
   result.incomplete = (*outputs)->any_failed();
+  if (options.output.layout.utc && !result.clock) {
+    log_warning("the source says nothing of its clock: the column utc_s is empty");
+  }
   if (recorder) {
     conclude(recorder->finish(), run.live, result);
   }

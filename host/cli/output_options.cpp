@@ -67,10 +67,10 @@ class Opening {
       return tl::unexpected(file.error());
     }
     if (!live_) {
-      return std::make_unique<EstimateFile>(std::move(*file), options_.format);
+      return std::make_unique<EstimateFile>(std::move(*file), options_.layout);
     }
     return std::make_unique<QueuedOutput>(
-        std::make_unique<LineWriter>(std::move(*file), options_.format));
+        std::make_unique<LineWriter>(std::move(*file), options_.layout));
   }
 
   OpenedOutput operator()(const UdpAddress& address) const { return UdpOutput::open(address); }
@@ -126,10 +126,15 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
       ->check(address)
       ->type_name("WHERE")
       ->default_str(std::string(kStandardOutput));
-  command.add_option("--format", options.format, "How files and the standard output are written")
+  command
+      .add_option("--format", options.layout.format,
+                  "How files and the standard output are written")
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("csv|jsonl")
       ->default_str("csv");
+  command.add_flag("--utc", options.layout.utc,
+                   "Add the column utc_s, the host's estimate of absolute time, to files and the\n"
+                   "standard output; of boards, and of recordings from them");
   command.add_option("--mqtt-qos", options.mqtt_qos, "Quality of service of estimates by MQTT")
       ->check(CLI::IsMember({0, 1, 2}).description(""))
       ->type_name("0|1|2")

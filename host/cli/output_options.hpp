@@ -18,7 +18,7 @@ namespace penduline {
 
 struct OutputOptions {
   std::vector<std::string> addresses;  ///< none: the standard output
-  EstimateFormat format = EstimateFormat::kCsv;
+  EstimateLayout layout;
   int mqtt_qos = 0;
   std::string mqtt_password_file;  ///< "": none
 };

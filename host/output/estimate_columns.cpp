@@ -63,12 +63,18 @@ constexpr std::array kColumns = {
                    [](const Row& row) { return row.residual_m; }},
     EstimateColumn{"flags", "sum of the flags that are set", 0,
                    [](const Row& row) -> Value { return static_cast<double>(row.flags); }},
+    // By request, so the last one.
+    EstimateColumn{
+        "utc_s", "the same moment in seconds since 1970, where the host knows it", kMicro,
+        [](const Row& row) {
+          return row.utc_us ? Value(static_cast<double>(*row.utc_us) / 1e6) : std::nullopt;
+        }},
 };
 
 }  // namespace
 
-std::span<const EstimateColumn> estimate_columns() {
-  return kColumns;
+std::span<const EstimateColumn> estimate_columns(bool with_utc) {
+  return std::span(kColumns).first(kColumns.size() - (with_utc ? 0 : 1));
 }
 
 }  // namespace penduline

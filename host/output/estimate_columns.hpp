@@ -19,7 +19,7 @@ struct EstimateColumn {
   std::optional<double> (*value)(const Estimate<double>& estimate);
 };
 
-/// All columns, in the order in which they are written.
-[[nodiscard]] std::span<const EstimateColumn> estimate_columns();
+/// All columns, in the order in which they are written; that of absolute time on request only.
+[[nodiscard]] std::span<const EstimateColumn> estimate_columns(bool with_utc = false);
 
 }  // namespace penduline

@@ -6,13 +6,13 @@
 
 namespace penduline {
 
-EstimateFile::EstimateFile(TextFile file, EstimateFormat format)
-    : file_(std::move(file)), format_(format) {
-  append_estimate_head(file_.text(), format_);
+EstimateFile::EstimateFile(TextFile file, EstimateLayout layout)
+    : file_(std::move(file)), layout_(layout) {
+  append_estimate_head(file_.text(), layout_);
 }
 
 tl::expected<void, Error> EstimateFile::take(const Estimate<double>& estimate) {
-  append_estimate_row(file_.text(), estimate, format_);
+  append_estimate_row(file_.text(), estimate, layout_);
   return file_.flush_if_large();
 }
 

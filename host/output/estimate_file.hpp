@@ -14,7 +14,7 @@ namespace penduline {
 
 class EstimateFile final : public Output {
  public:
-  EstimateFile(TextFile file, EstimateFormat format);
+  EstimateFile(TextFile file, EstimateLayout layout);
 
   [[nodiscard]] std::string name() const override { return file_.name(); }
   tl::expected<void, Error> take(const Estimate<double>& estimate) override;
@@ -23,7 +23,7 @@ class EstimateFile final : public Output {
 
  private:
   TextFile file_;
-  EstimateFormat format_;
+  EstimateLayout layout_;
 };
 
 }  // namespace penduline

@@ -13,10 +13,10 @@
 
 namespace penduline {
 
-/// An estimate with the host's time.
+/// An estimate with its time stamp.
 struct StampedEstimate {
   Estimate<double> estimate;
-  double unix_s = 0;  ///< when the host had it, in seconds since 1970
+  double unix_s = 0;  ///< as timestamp_s() gave it when the host had the estimate
 };
 
 /// One thread pushes and closes, one other pops and waits. A full queue loses its oldest estimate.

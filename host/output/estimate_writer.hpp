@@ -14,15 +14,20 @@ enum class EstimateFormat {
   kJsonLines,  ///< one object a line; what an estimate does not have is null
 };
 
+struct EstimateLayout {
+  EstimateFormat format = EstimateFormat::kCsv;
+  bool utc = false;  ///< with the column of absolute time
+};
+
 /// Appends what stands before the first estimate.
-void append_estimate_head(std::string& text, EstimateFormat format);
+void append_estimate_head(std::string& text, const EstimateLayout& layout);
 
 /// Appends one estimate as a line.
 void append_estimate_row(std::string& text, const Estimate<double>& estimate,
-                         EstimateFormat format);
+                         const EstimateLayout& layout);
 
 /// Appends one estimate as a JSON object with no line's end: `timestamp`, which is `unix_s` in
-/// seconds since 1970, then the columns.
+/// seconds since 1970, then the columns without that of absolute time.
 void append_estimate_message(std::string& text, const Estimate<double>& estimate, double unix_s);
 
 }  // namespace penduline

@@ -27,9 +27,9 @@ void let_broken_pipe_end_program() {
 
 }  // namespace
 
-LineWriter::LineWriter(TextFile file, EstimateFormat format)
-    : file_(std::move(file)), format_(format) {
-  append_estimate_head(file_.text(), format_);
+LineWriter::LineWriter(TextFile file, EstimateLayout layout)
+    : file_(std::move(file)), layout_(layout) {
+  append_estimate_head(file_.text(), layout_);
 }
 
 /// Moves rows from the queue to the text, as many as go with one write.
@@ -40,7 +40,7 @@ void LineWriter::fill(EstimateQueue& queue) {
       if (!oldest) {
         return;
       }
-      append_estimate_row(next_row_, oldest->estimate, format_);
+      append_estimate_row(next_row_, oldest->estimate, layout_);
     }
     if (rows_ > 0 && file_.text().size() + next_row_.size() > PIPE_BUF) {
       return;

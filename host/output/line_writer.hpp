@@ -13,7 +13,7 @@ namespace penduline {
 
 class LineWriter final : public QueueWriter {
  public:
-  LineWriter(TextFile file, EstimateFormat format);
+  LineWriter(TextFile file, EstimateLayout layout);
 
   [[nodiscard]] std::string name() const override { return file_.name(); }
   /// Fails where the reader is gone or the file cannot be written; of the standard output a reader
@@ -25,7 +25,7 @@ class LineWriter final : public QueueWriter {
   void fill(EstimateQueue& queue);
 
   TextFile file_;
-  EstimateFormat format_;
+  EstimateLayout layout_;
   std::uint64_t rows_ = 0;  ///< in the file's text
   std::string next_row_;    ///< what did not fit into that
 };

@@ -35,7 +35,7 @@ QueuedOutput::~QueuedOutput() {
 }
 
 tl::expected<void, Error> QueuedOutput::take(const Estimate<double>& estimate) {
-  shared_->queue.push({.estimate = estimate, .unix_s = unix_time_s()});
+  shared_->queue.push({.estimate = estimate, .unix_s = timestamp_s(estimate)});
   return ended_.wait_for(0s) == std::future_status::ready ? ended_.get() : Outcome();
 }
 

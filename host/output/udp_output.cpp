@@ -95,7 +95,7 @@ bool UdpOutput::send() {
 
 tl::expected<void, Error> UdpOutput::take(const Estimate<double>& estimate) {
   message_.clear();
-  append_estimate_message(message_, estimate, unix_time_s());
+  append_estimate_message(message_, estimate, timestamp_s(estimate));
   if (!send()) {
     ++dropped_;
   }

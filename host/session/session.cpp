@@ -13,14 +13,33 @@
 namespace penduline {
 namespace {
 
-/// Counts the estimates on their way to the output and warns of each kind of problem once.
+/// Dates the estimates on their way to the output, counts them and warns of each kind of problem
+/// once.
 class CountingSink final : public EstimateSink {
  public:
-  CountingSink(const SessionParts& parts, Summary& summary) : parts_(parts), summary_(summary) {}
+  CountingSink(const SessionParts& parts, SessionResult& result)
+      : parts_(parts), summary_(result.summary), clock_(result.clock) {}
 
   void set_newest(const Sample& sample) { newest_ = sample; }
+  /// Says that the board has started anew before the sample to come.
+  void note_restart() { restarted_ = summary_.samples() > 0; }
 
   tl::expected<void, Error> take(const Estimate<double>& estimate) override {
+    // The clock is that of the newest sample's start.
+    const bool same_start = !restarted_ || estimate.seq == newest_.seq;
+    const auto moment = clock_ && same_start ? clock_->host_moment(estimate.t_us) : std::nullopt;
+    if (moment) {
+      Estimate<double> dated = estimate;
+      dated.utc_us = moment->utc_us;
+      return take_dated(dated);
+    }
+    return take_dated(estimate);
+  }
+
+  [[nodiscard]] bool output_failed() const { return output_failed_; }
+
+ private:
+  tl::expected<void, Error> take_dated(const Estimate<double>& estimate) {
     if (const Flags fresh = summary_.count(estimate) & ~flag::kOrdinary; fresh != 0) {
       warn(fresh, estimate);
     }
@@ -29,9 +48,6 @@ class CountingSink final : public EstimateSink {
     return taken;
   }
 
-  [[nodiscard]] bool output_failed() const { return output_failed_; }
-
- private:
   void warn(Flags fresh, const Estimate<double>& estimate) const {
     // An offline estimator's rows come when the source is long past them.
     const std::string place =
@@ -52,7 +68,9 @@ class CountingSink final : public EstimateSink {
 
   const SessionParts& parts_;
   Summary& summary_;
+  const std::optional<DeviceClock>& clock_;
   Sample newest_;
+  bool restarted_ = false;
   bool output_failed_ = false;
 };
 
@@ -100,6 +118,9 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
     const auto read = parts.source.read(sample);
     for (const RecordingEvent& event : parts.source.events()) {
       follow(result.clock, event);
+      if (event.kind == event::kBoot) {
+        sink.note_restart();
+      }
       if (parts.note) {
         parts.note(event);
       }
@@ -143,7 +164,7 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
 SessionResult run_session(const SessionParts& parts, const SessionOptions& options,
                           const StopSignal& stop) {
   SessionResult result{.summary = Summary(parts.source.header().acquisition)};
-  CountingSink sink(parts, result.summary);
+  CountingSink sink(parts, result);
   auto outcome = pass_samples(parts, options, stop, sink, result);
   const bool ended = outcome && !stop.requested();
   // An offline estimator answers now, also for what came before a failure.

@@ -207,6 +207,7 @@ void BoardSource::take(const wire::Hello& hello) {
   boot_id_ = hello.boot_id;
   firmware_ = wire::characters_of(hello.firmware);
   restarted_ = true;
+  pinged_at_ = Clock::time_point();  // its clock has started anew
   dropped_before_ = 0;
   events_.push_back(boot_event(header(), host_time_now().utc_us));
 }

@@ -143,7 +143,7 @@ void write_row(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) {
     text.clear();
     for (const Estimate<double>& estimate : estimates) {
-      append_estimate_row(text, estimate, EstimateFormat::kCsv);
+      append_estimate_row(text, estimate, {});
     }
     benchmark::DoNotOptimize(text.data());
   }

@@ -39,13 +39,13 @@ Estimate<double> empty_estimate() {
 
 std::string head(EstimateFormat format) {
   std::string text;
-  append_estimate_head(text, format);
+  append_estimate_head(text, {.format = format});
   return text;
 }
 
 std::string row(const Estimate<double>& estimate, EstimateFormat format) {
   std::string text;
-  append_estimate_row(text, estimate, format);
+  append_estimate_row(text, estimate, {.format = format});
   return text;
 }
 
@@ -67,6 +67,23 @@ TEST_CASE("A whole estimate fills every cell", "[output]") {
   CHECK(row(whole_estimate(), EstimateFormat::kCsv) ==
         "1.234567,42,0.100000000,-0.200000000,0.060000000,0.030000000,-0.290000000,1.500000000,"
         "-2.500000000,0.001000000,0.002000000,0.000012500,257\n");
+}
+
+TEST_CASE("Absolute time is a last column on request, empty where it is not known", "[output]") {
+  const EstimateLayout layout{.utc = true};
+  std::string text;
+  append_estimate_head(text, layout);
+  CHECK(text == fmt::format("{},utc_s\n", kDesignColumns));
+  Estimate<double> estimate = empty_estimate();
+  const auto dated = [&] {
+    std::string line;
+    append_estimate_row(line, estimate, layout);
+    return line;
+  };
+  CHECK(dated() == "-0.325000,0,,,,,,,,,,,2048,\n");
+  estimate.utc_us = 1'795'275'130'762'653;
+  CHECK(dated() == "-0.325000,0,,,,,,,,,,,2048,1795275130.762653\n");
+  CHECK(row(estimate, EstimateFormat::kCsv) == "-0.325000,0,,,,,,,,,,,2048\n");
 }
 
 TEST_CASE("What an estimate does not have is an empty cell", "[output]") {
@@ -160,7 +177,7 @@ TEST_CASE("A message is the JSON line with a timestamp before it and no line's e
 
 TEST_CASE("Rows are appended behind what is there", "[output]") {
   std::string text = "before\n";
-  append_estimate_row(text, empty_estimate(), EstimateFormat::kCsv);
+  append_estimate_row(text, empty_estimate(), {});
   CHECK(text == "before\n-0.325000,0,,,,,,,,,,,2048\n");
 }
 

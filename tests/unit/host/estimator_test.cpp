@@ -56,7 +56,7 @@ std::string finishing_error(std::size_t samples) {
 
 std::string row_of(const Estimate<double>& estimate) {
   std::string text;
-  append_estimate_row(text, estimate, EstimateFormat::kCsv);
+  append_estimate_row(text, estimate, {});
   return text;
 }
 

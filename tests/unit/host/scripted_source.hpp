@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +37,7 @@ class ScriptedSource final : public Source {
 
   [[nodiscard]] RecordingHeader header() const override { return {}; }
   tl::expected<ReadResult, Error> read(Sample& sample) override {
+    events_ = std::exchange(events_before[next_], {});
     if (on_read) {
       on_read(next_);
     }
@@ -51,6 +54,10 @@ class ScriptedSource final : public Source {
   [[nodiscard]] double progress() const override { return 0; }
   [[nodiscard]] std::vector<std::string> complaints() const override { return complaints_; }
 
+  [[nodiscard]] std::span<const RecordingEvent> events() const override { return events_; }
+
+  /// What happens before the sample of this place.
+  std::map<std::size_t, std::vector<RecordingEvent>> events_before;
   /// Called before each read with the number of samples already handed on.
   std::function<void(std::size_t)> on_read;
   /// After how many samples to fail.
@@ -59,6 +66,7 @@ class ScriptedSource final : public Source {
 
  private:
   std::vector<Sample> samples_;
+  std::vector<RecordingEvent> events_;
   std::size_t next_ = 0;
 };
 

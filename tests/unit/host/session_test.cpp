@@ -3,11 +3,14 @@
 #include "host/session/session.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "host/session/clock_exchange.hpp"
 #include "tests/unit/hal/simulated_rigs.hpp"
 #include "tests/unit/host/scripted_source.hpp"
 
@@ -72,6 +75,35 @@ TEST_CASE("A session hands one estimate on for each sample, in order", "[session
     CHECK(done.estimates[i].attitude.has_value());
   }
   CHECK(done.summary == "50 samples at 20.000 Hz, 0 lost, 50 with angles");
+}
+
+/// The board's clock read 0 when the host's read `utc_us`.
+RecordingEvent pong(std::int64_t utc_us) {
+  return event_of(ClockExchange{.sent_us = 0, .t_us = 0, .received_us = 0, .utc_us = utc_us});
+}
+
+TEST_CASE("Rows are dated as soon as the board's clock is known, and anew after a restart",
+          "[session]") {
+  ScriptedSource source(numbered({0, 1, 2, 0, 1}));
+  source.events_before[1] = {pong(1'000'000)};
+  source.events_before[3] = {{.kind = "boot"}};
+  source.events_before[4] = {pong(2'000'000)};
+  const Run done = run(source);
+  std::vector<std::optional<std::int64_t>> utc_us;
+  for (const auto& estimate : done.estimates) {
+    utc_us.push_back(estimate.utc_us);
+  }
+  CHECK(utc_us == std::vector<std::optional<std::int64_t>>{std::nullopt, 1'050'000, 1'100'000,
+                                                           std::nullopt, 2'050'000});
+}
+
+TEST_CASE("Rows that come after a restart, of samples before it, have no date", "[session]") {
+  ScriptedSource source(rest_samples(50));
+  source.events_before[0] = {pong(1'000'000)};
+  source.events_before[40] = {{.kind = "boot"}, pong(2'000'000)};
+  const Run done = run(source, EstimatorKind::kPaper);
+  REQUIRE(done.estimates.size() > 20);
+  CHECK_FALSE(done.estimates.front().utc_us);
 }
 
 TEST_CASE("A session without faults warns of nothing", "[session]") {
