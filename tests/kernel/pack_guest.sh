@@ -61,7 +61,7 @@ put_penduline() {
     strip --strip-debug -o "$guest/penduline/build/$program" "$build/$program"
     put_libraries "$build/$program"
   done
-  (cd "$sources" && cp --parents tests/program/{program,wire}.py docs/rigs/*.toml \
+  (cd "$sources" && cp --parents tests/program/{live_run,program,source_suite,wire}.py docs/rigs/*.toml \
     tests/kernel/guest/* "$guest/penduline/")
   mv "$guest/penduline/tests/kernel/guest/init.sh" "$guest/init"
   chmod +x "$guest/init"

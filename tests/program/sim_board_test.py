@@ -10,10 +10,10 @@ import termios
 import time
 import unittest
 
-from program import PROGRAM, RIGS, ProgramTest
+from program import RIGS, ProgramTest
+from sim_board import BOARD, WITHOUT_PTS
 import wire
 
-BOARD = PROGRAM.parent / "penduline-sim-board"
 PAPER = ["--rig", RIGS / "paper.toml"]
 
 
@@ -113,9 +113,6 @@ class TerminalTest(ProgramTest):
             if select.select([port], [], [], 1)[0]:
                 stream += os.read(port, 4096)
         return messages(stream)
-
-
-WITHOUT_PTS = not os.path.exists("/dev/pts/ptmx")
 
 
 @unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+# `penduline run` on a board's terminal: plugged in late, reset, gone for good.
+import time
+import unittest
+
+from live_run import Run
+from program import RIGS, ProgramTest, read_rows, run
+from sim_board import WITHOUT_PTS, SimBoard
+
+RIG = RIGS / "paper.toml"
+RESTARTED, DROPOUT = 4, 256
+
+
+@unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+class BoardTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.port = self.folder / "port"
+
+    def plug(self, *options):
+        board = SimBoard(self.port, *options)
+        self.addCleanup(board.close)
+        return board
+
+    def start(self, *options):
+        started = Run(*options, source=f"serial:{self.port}", rig=RIG)
+        self.addCleanup(started.close)
+        return started
+
+    def finish(self, started):
+        started.interrupt()
+        status, said = started.end()
+        self.assertEqual(status, 0, said)
+        return said
+
+    def wait_for_angles(self, started, since):
+        """Waits for a row with angles after row `since`."""
+        count = since
+        while not any(row["theta1_rad"] for row in started.rows()[since:]):
+            count += 1
+            started.wait_for_rows(count)
+
+    def test_the_first_angle_comes_within_two_seconds_of_plugging_in(self):
+        started = self.start()
+        time.sleep(1)  # it has slowed down to its longest wait
+        self.plug()
+        plugged = time.monotonic()
+        self.wait_for_angles(started, 0)
+        print(f"first angle after {time.monotonic() - plugged:.2f} s")
+        self.assertLess(time.monotonic() - plugged, 2)
+        self.finish(started)
+
+    def test_a_run_through_a_reset_replays_byte_for_byte(self):
+        recording = self.folder / "recording.csv"
+        board = self.plug()
+        started = self.start("--rate", "200", "--record", recording, "--utc")
+        started.wait_for_rows(100)
+        board.close()
+        started.drain()
+        before = len(started.rows())
+        self.assertIn('kind = "disconnected"', recording.read_text(encoding="utf-8"))
+        self.plug()
+        self.wait_for_angles(started, before)
+        said = self.finish(started)
+        self.assertIn(f"info: {self.port}: the board has gone; waiting for it", said)
+        self.assertRegex("\n".join(said), "the board is back after .* it has started anew")
+        row = started.rows()[before]
+        self.assertEqual(int(row["flags"]) & (RESTARTED | DROPOUT), RESTARTED | DROPOUT)
+        self.assertEqual(run("replay", recording, "--rig", RIG, "--utc").stdout,
+                         started.output.decode())
+        self.assertEqual(len(read_rows(recording)), len(started.rows()))
+
+    def test_a_run_that_is_not_to_wait_ends_with_the_board(self):
+        board = self.plug()
+        started = self.start("--once")
+        started.wait_for_rows(5)
+        board.close()
+        status, said = started.end()
+        self.assertEqual((status, said[-1]), (1, f"error: {self.port}: the board has gone"))
+
+    def test_a_second_run_is_told_who_has_the_port(self):
+        self.plug()
+        self.start().wait_for_rows(1)
+        done = run("run", f"serial:{self.port}", "--once", "--rig", RIG, status=1)
+        self.assertIn("another program has the port", done.stderr)
+
+
+
+if __name__ == "__main__":
+    unittest.main()

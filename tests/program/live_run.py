@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+# `penduline run` while it runs: its rows as they come, Ctrl-C, its end.
+import os
+import select
+import signal
+import subprocess
+import time
+
+from program import PROGRAM
+
+
+class Run:
+    """Started at once; its rows come as dictionaries of text."""
+
+    def __init__(self, *options, source, rig):
+        self.process = subprocess.Popen([PROGRAM, "run", source, "--rig", rig, *options],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.output = b""
+
+    def wait_for_rows(self, count, seconds=10):
+        """Waits until so many whole rows have come."""
+        end = time.monotonic() + seconds
+        while len(self.rows()) < count:
+            left = end - time.monotonic()
+            if left <= 0 or not select.select([self.process.stdout], [], [], left)[0]:
+                raise AssertionError(f"found {len(self.rows())} rows within {seconds} s, not {count}")
+            more = os.read(self.process.stdout.fileno(), 65536)
+            if not more:
+                raise AssertionError(f"ended early: {self.process.stderr.read().decode()}")
+            self.output += more
+
+    def drain(self):
+        """Takes the rows that are on their way, until none comes for a while."""
+        while select.select([self.process.stdout], [], [], 0.3)[0]:
+            self.output += os.read(self.process.stdout.fileno(), 65536)
+
+    def rows(self):
+        """All whole rows that have come."""
+        head, *rows = self.output.decode().split("\n")[:-1] or [""]
+        return [dict(zip(head.split(","), row.split(","))) for row in rows]
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+
+    def end(self, seconds=10):
+        """Waits for its end; its exit status and the lines on stderr."""
+        rest, said = self.process.communicate(timeout=seconds)
+        self.output += rest
+        return self.process.returncode, said.decode().splitlines()
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+        self.process.stderr.close()
