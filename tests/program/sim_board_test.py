@@ -155,7 +155,9 @@ class PseudoTerminalTest(TerminalTest):
         time.sleep(0.2)
         self.process.send_signal(signal.SIGINT)
         self.assertEqual(self.process.wait(timeout=30), 0)
-        self.assertRegex(self.process.stderr.read(), r"^info: \d\.\d{3} s of virtual time\n$")
+        self.assertRegex(self.process.stderr.read(),
+                         r"^info: time 0 at \d+\.\d{6} s of CLOCK_MONOTONIC\n"
+                         r"info: \d\.\d{3} s of virtual time\n$")
 
     def test_the_touch_at_1200_baud_ends_it_in_the_bootloader(self):
         port = os.open(self.path, os.O_RDWR | os.O_NOCTTY)

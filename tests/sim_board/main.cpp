@@ -45,7 +45,13 @@ class Pace {
         end_us_(options.simulation.seconds
                     ? static_cast<std::uint64_t>(std::llround(*options.simulation.seconds * 1e6))
                     : UINT64_MAX),
-        link_(surroundings.link) {}
+        link_(surroundings.link) {
+    if (!fast_) {
+      // For whoever compares the board's time with the host's.
+      const std::chrono::duration<double> start = start_.time_since_epoch();
+      log_info(fmt::format("time 0 at {:.6f} s of CLOCK_MONOTONIC", start.count()));
+    }
+  }
 
   /// Waits for the real time, or as fast as possible for the one who reads.
   void wait_for(std::uint64_t virtual_us) const {
