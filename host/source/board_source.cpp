@@ -48,7 +48,7 @@ tl::expected<std::unique_ptr<Source>, Error> BoardSource::open(PortOpener opener
 /// One attempt to connect; after one that failed, a wait that is longer each time. Fails where
 /// nothing is to be waited for.
 tl::expected<void, Error> BoardSource::try_again() {
-  const auto connected = connect();
+  auto connected = connect();
   if (connected || listener_.stop_requested()) {
     wait_ = kShortestWait;
     return {};
