@@ -73,6 +73,9 @@ std::vector<SerialDevice> serial_devices() {
   }
   const Enumeration enumeration(udev_enumerate_new(context.get()), udev_enumerate_unref);
   udev_enumerate_add_match_subsystem(enumeration.get(), "tty");
+  // Those of USB's drivers; to look at all others, dozens of them, takes far longer.
+  udev_enumerate_add_match_sysname(enumeration.get(), "ttyACM*");
+  udev_enumerate_add_match_sysname(enumeration.get(), "ttyUSB*");
   udev_enumerate_scan_devices(enumeration.get());
   for (udev_list_entry* entry = udev_enumerate_get_list_entry(enumeration.get()); entry != nullptr;
        entry = udev_list_entry_get_next(entry)) {
