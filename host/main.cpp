@@ -11,6 +11,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/log.hpp"
+#include "host/cli/self_description.hpp"
 
 namespace penduline {
 namespace {
@@ -31,6 +32,10 @@ int run_program(int argc, char** argv) {
   program.footer(
       "Exit status: 0 done; 1 failed, with one line on stderr; 2 wrong usage; 3 finished, but the\n"
       "data had flagged problems and --strict was given. 'penduline COMMAND --help' teaches more.");
+  if (const auto description = describe_itself(program, {argv, argv + argc})) {
+    fmt::print("{}", *description);
+    return static_cast<int>(ExitStatus::kDone);
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

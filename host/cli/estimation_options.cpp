@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -25,6 +26,20 @@ void conclude(const RecorderReport& report, bool live, SessionResult& result) {
   if (!live && report.error && !result.error) {
     result.error = report.error;
   }
+}
+
+/// Has the service manager know that the session turns and, as samples come, what it counts.
+std::function<void(const Summary&)> reporter(ServiceManager* service) {
+  if (service == nullptr) {
+    return {};
+  }
+  return [service, told = std::uint64_t{0}](const Summary& summary) mutable {
+    service->turned();
+    if (summary.samples() > told && (told == 0 || service->count_due())) {
+      told = summary.samples();
+      service->tell(summary.text());
+    }
+  };
 }
 
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
@@ -54,6 +69,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                      .output = **outputs,
                      .recorder = {},
                      .note = {},
+                     .turned = reporter(run.service),
                      .warn = log_warning};
   std::unique_ptr<Recorder> recorder;
   if (!run.recording.path.empty()) {
@@ -75,6 +91,9 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   }
   SessionResult result = run_session(
       parts, {.paced = run.paced, .live = run.live, .rows_on_stdout = rows_on_stdout}, stop);
+  if (run.service != nullptr) {
+    run.service->stopping();
+  }
   // What was estimated before a failure is not thrown away.
   const auto finished = (*outputs)->finish([&](const std::string& output, std::uint64_t dropped) {
     result.summary.count_dropped(output, dropped);

@@ -12,6 +12,7 @@
 #include "host/cli/recording_options.hpp"
 #include "host/estimator/estimator.hpp"
 #include "host/rig_file.hpp"
+#include "host/session/service_manager.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/source.hpp"
 
@@ -29,7 +30,8 @@ struct EstimationRun {
   bool live = false;   ///< no sample waits for an output
   bool paced = false;  ///< each sample waits for its time
   RecordingOptions recording{};
-  std::string input_path{};  ///< "": the samples come from no file
+  std::string input_path{};           ///< "": the samples come from no file
+  ServiceManager* service = nullptr;  ///< told of a live run's turns; none: nobody
 };
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options);

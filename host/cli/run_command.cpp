@@ -17,6 +17,7 @@
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/simulation_options.hpp"
+#include "host/session/service_manager.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/board_source.hpp"
 #include "host/source/port_finder.hpp"
@@ -37,7 +38,8 @@ struct RunOptions {
 tl::expected<std::unique_ptr<Source>, Error> open_source(const RunOptions& options,
                                                          const SourceUri& uri,
                                                          const Rig<double>& rig,
-                                                         const StopSignal& stop) {
+                                                         const StopSignal& stop,
+                                                         ServiceManager& service) {
   if (uri.kind == SourceUri::Kind::kSimulation) {
     SimulationSettings settings = simulation_settings(options.simulation, rig);
     settings.duration_s = options.simulation.seconds;
@@ -47,7 +49,16 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(const RunOptions& optio
     return open_recording(uri.path);
   }
   return BoardSource::open(port_opener(uri), options.board,
-                           {.say = log_info, .stop_requested = [&] { return stop.requested(); }});
+                           {.say =
+                                [&](const std::string& news) {
+                                  log_info(news);
+                                  service.tell(news);
+                                },
+                            .stop_requested =
+                                [&] {
+                                  service.turned();  // while there is no session yet that turns
+                                  return stop.requested();
+                                }});
 }
 
 /// The rate to ask a board for; none where no option says one.
@@ -87,7 +98,9 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
     return log_failure(rig.error());
   }
   const StopSignal stop;
-  auto opened = open_source(options, source, rig->rig, stop);
+  ServiceManager service;
+  service.ready("opening " + options.uri);
+  auto opened = open_source(options, source, rig->rig, stop, service);
   if (!opened && stop.requested()) {
     log_info(opened.error().message);
     return ExitStatus::kDone;
@@ -96,7 +109,8 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
                   {.live = is_live(options, source),
                    .paced = !options.fast && !source.is_board(),
                    .recording = options.recording,
-                   .input_path = source.path},
+                   .input_path = source.path,
+                   .service = &service},
                   *rig, std::move(opened), stop);
 }
 

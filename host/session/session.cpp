@@ -87,8 +87,10 @@ void follow(std::optional<DeviceClock>& clock, const RecordingEvent& event) {
 /// Keeps to the samples' own times.
 class Pacer {
  public:
-  explicit Pacer(const StopSignal& stop) : stop_(stop) {}
+  Pacer(const StopSignal& stop, const std::function<void()>& turned)
+      : stop_(stop), turned_(turned) {}
 
+  /// Turns while it waits.
   void wait_for(const Sample& sample) {
     const auto now = std::chrono::steady_clock::now();
     if (!started_ || sample.t_us < last_t_us_) {
@@ -96,11 +98,17 @@ class Pacer {
       origin_ = now - std::chrono::microseconds(sample.t_us);
     }
     last_t_us_ = sample.t_us;
-    stop_.sleep_until(origin_ + std::chrono::microseconds(sample.t_us));
+    constexpr std::chrono::milliseconds kLongestSleep{500};
+    const auto moment = origin_ + std::chrono::microseconds(sample.t_us);
+    while (!stop_.requested() && std::chrono::steady_clock::now() < moment) {
+      stop_.sleep_until(std::min(moment, std::chrono::steady_clock::now() + kLongestSleep));
+      turned_();
+    }
   }
 
  private:
   const StopSignal& stop_;
+  const std::function<void()>& turned_;
   bool started_ = false;
   std::chrono::steady_clock::time_point origin_;  ///< of device time 0
   std::int64_t last_t_us_ = 0;
@@ -111,10 +119,16 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
                                        const StopSignal& stop, CountingSink& sink,
                                        SessionResult& result) {
   constexpr std::uint64_t kSamplesPerLook = 1024;
-  Pacer pacer(stop);
+  const std::function<void()> turned = [&] {
+    if (parts.turned) {
+      parts.turned(result.summary);
+    }
+  };
+  Pacer pacer(stop, turned);
   ProgressBar progress(options.rows_on_stdout);
   Sample sample;
   for (std::uint64_t count = 0; !stop.requested();) {
+    turned();
     const auto read = parts.source.read(sample);
     for (const RecordingEvent& event : parts.source.events()) {
       follow(result.clock, event);

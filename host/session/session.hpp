@@ -26,6 +26,9 @@ struct SessionParts {
   std::function<tl::expected<void, Error>(const Sample&)> recorder{};
   /// Told what happened between two samples, in its place among them; may be empty.
   std::function<void(const RecordingEvent&)> note{};
+  /// Told several times a second where samples come in their own time, also without any, what has
+  /// been counted; may be empty.
+  std::function<void(const Summary&)> turned{};
   /// Told, once for each kind, what is doubtful in the data.
   std::function<void(const std::string&)> warn;
 };

@@ -34,11 +34,13 @@ StopSignal::StopSignal() {
   stop_requested = 0;
   interrupt_before_ = note_signal(SIGINT);
   terminate_before_ = note_signal(SIGTERM);
+  hang_up_before_ = note_signal(SIGHUP);
 }
 
 StopSignal::~StopSignal() {
   sigaction(SIGINT, &interrupt_before_, nullptr);
   sigaction(SIGTERM, &terminate_before_, nullptr);
+  sigaction(SIGHUP, &hang_up_before_, nullptr);
 }
 
 bool StopSignal::requested() const {

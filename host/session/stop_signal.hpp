@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM as a request to stop cleanly.
+// Ctrl-C, SIGTERM and a terminal that is gone as a request to stop cleanly.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,8 @@
 
 namespace penduline {
 
-/// While it lives, the first SIGINT or SIGTERM is only noted; a second one kills the program.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted; a second one kills the
+/// program. One that the program was started to ignore, as by nohup, is ignored.
 class StopSignal {
  public:
   StopSignal();
@@ -22,6 +23,7 @@ class StopSignal {
  private:
   struct sigaction interrupt_before_ {};
   struct sigaction terminate_before_ {};
+  struct sigaction hang_up_before_ {};
 };
 
 }  // namespace penduline

@@ -33,23 +33,26 @@ class Disposition {
   struct sigaction action_ {};
 };
 
-/// Both signals end the program, as at its start; Catch2 has set handlers of its own.
+/// The signals end the program, as at its start; Catch2 has set handlers of its own.
 class AtStart {
  public:
   AtStart() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGHUP, SIG_DFL);
   }
   AtStart(const AtStart&) = delete;
   AtStart& operator=(const AtStart&) = delete;
   ~AtStart() {
     interrupt_.restore();
     terminate_.restore();
+    hang_up_.restore();
   }
 
  private:
   Disposition interrupt_{SIGINT};
   Disposition terminate_{SIGTERM};
+  Disposition hang_up_{SIGHUP};
 };
 
 /// Whether a signal would end the program.
@@ -76,8 +79,8 @@ TEST_CASE("Nothing is requested at first", "[stop]") {
   CHECK_FALSE(StopSignal().requested());
 }
 
-TEST_CASE_METHOD(AtStart, "SIGINT and SIGTERM are requests to stop", "[stop]") {
-  const int signal = GENERATE(SIGINT, SIGTERM);
+TEST_CASE_METHOD(AtStart, "SIGINT, SIGTERM and SIGHUP are requests to stop", "[stop]") {
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   const StopSignal stop;
   std::raise(signal);
   CHECK(stop.requested());
@@ -92,10 +95,11 @@ TEST_CASE_METHOD(AtStart, "After the first signal the next one of its kind ends 
   CHECK_FALSE(ends_program(SIGTERM));
 }
 
-TEST_CASE_METHOD(AtStart, "Afterwards both signals end the program again", "[stop]") {
+TEST_CASE_METHOD(AtStart, "Afterwards the signals end the program again", "[stop]") {
   { const StopSignal stop; }
   CHECK(ends_program(SIGINT));
   CHECK(ends_program(SIGTERM));
+  CHECK(ends_program(SIGHUP));
 }
 
 TEST_CASE_METHOD(AtStart, "A signal that the program was started to ignore stays ignored",
