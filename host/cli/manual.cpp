@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -11,11 +12,13 @@
 namespace penduline {
 namespace {
 
-/// Text that mdoc leaves as it is.
+/// Text that mdoc leaves as it is, but that each sentence begins on a line of its own.
 std::string plain(std::string_view text) {
   std::string escaped = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
-  for (const char character : text) {
-    switch (character) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool between_sentences = i > 0 && i + 1 < text.size() && text[i - 1] == '.' &&
+                                   text[i] == ' ' && text[i + 1] >= 'A' && text[i + 1] <= 'Z';
+    switch (const char character = between_sentences ? '\n' : text[i]) {
       case '\\':
         escaped += "\\e";
         break;
