@@ -13,6 +13,9 @@ MACHINE = ("-M", "pc,usb=off,hpet=off", "-accel", "tcg", "-m", "768", "-nodefaul
            "-no-reboot", "-serial", "stdio", "-device", "isa-debug-exit,iobase=0x501,iosize=2")
 COMMAND_LINE = ("console=ttyS0 quiet panic=-1 mitigations=off tsc=reliable no_timer_check "
                 "cryptomgr.notests nowatchdog nolapic_timer")
+# Puts systemd in place of guest/init.sh.
+SYSTEMD = ("rdinit=/penduline/tests/kernel/guest/boot_systemd.sh systemd.unit=guest-test.service "
+           "systemd.show_status=0 systemd.log_target=console systemd.log_color=0")
 # Time goes by the instructions that the guest runs, and leaps while it sleeps. Nobody outside can take part.
 VIRTUAL_TIME = ("-icount", "shift=1,sleep=off")
 # What init.sh ends QEMU with. QEMU's own are 0 where the machine stopped (a panic) and 1 where it failed.
@@ -34,12 +37,14 @@ class Ending:
     console: str
 
 
-def boot(test, options=VIRTUAL_TIME, limit_s=120, **environment):
+def boot(test, options=VIRTUAL_TIME, limit_s=120, systemd=False, **environment):
     """Runs a program of the guest, named from the repository's root with its arguments, as the only one of a
-    fresh machine. `environment` is the program's; `options` are QEMU's, of which no kind of time is real time."""
-    words = [COMMAND_LINE, f'test="{test}"', *(f"{name}={value}" for name, value in environment.items())]
+    fresh machine, or beside systemd's services. `environment` is the program's; `options` are QEMU's, of which
+    no kind of time is real time."""
+    words = [COMMAND_LINE, SYSTEMD if systemd else "", f'test="{test}"', *(f"{name}={value}" for name, value in environment.items())]
     process = subprocess.Popen(
-        [QEMU, *MACHINE, "-kernel", BUILD / "kernel/vmlinux", "-initrd", BUILD / "kernel/guest.cpio",
+        [QEMU, *MACHINE, "-kernel", BUILD / "kernel/vmlinux", "-initrd",
+         BUILD / ("kernel/service.cpio" if systemd else "kernel/guest.cpio"),
          "-append", " ".join(words), *options],
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     try:

@@ -6,32 +6,13 @@
 # Status 77: something is missing here, said in one line.
 set -euo pipefail
 readonly SKIP=77
-
-# put_libraries PROGRAM: those that it is linked with.
-put_libraries() {
-  local library
-  { ldd "$1" 2>/dev/null || true; } | sed -n 's,[^/]*\(/[^ ]*\).*,\1,p' | while read -r library; do
-    [ -e "$guest$library" ] || install -D "$library" "$guest$library"
-  done
-}
-
-# put FILE...: to the same place in the guest, with libraries.
-put() {
-  local file
-  for file in "$@"; do
-    install -D --preserve-timestamps "$file" "$guest$file"
-    case $file in *.py | *.pyc | *.rules) ;; *) put_libraries "$file" ;; esac
-  done
-}
+sources=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+. "$sources/tests/kernel/guest_files.sh"
 
 make_tree() {
   local applet
-  mkdir --parents "$guest"/{dev,proc,sys,run,tmp,etc,usr/bin,usr/lib,usr/lib64}
-  ln --symbolic usr/bin "$guest/bin"
-  ln --symbolic usr/bin "$guest/sbin"
-  ln --symbolic bin "$guest/usr/sbin"
-  ln --symbolic usr/lib "$guest/lib"
-  ln --symbolic usr/lib64 "$guest/lib64"
+  make_folders
+  mkdir --parents "$guest"/{dev,proc,sys,run,tmp,etc}
   put /bin/busybox
   for applet in $(busybox --list); do
     ln --symbolic busybox "$guest/usr/bin/$applet" 2>/dev/null || true
@@ -40,10 +21,12 @@ make_tree() {
 
 put_udev() {
   put /bin/udevadm /lib/udev/rules.d/{50-udev-default,60-serial}.rules
+  install -D --target-directory="$guest/usr/lib/udev/rules.d" "$sources/packaging/70-penduline.rules"
   ln --symbolic udevadm "$guest/usr/bin/systemd-udevd"
-  # The rules name groups.
+  # The rules name groups, of which some are Penduline's.
   cp /etc/group "$guest/etc/"
   grep '^root:' /etc/passwd >"$guest/etc/passwd"
+  systemd-sysusers --root="$guest" "$sources/packaging/penduline.sysusers"
 }
 
 # Python and those of its modules that the guest's tests load.
@@ -68,11 +51,10 @@ put_penduline() {
 }
 
 main() {
-  local sources build guest kernel tool
-  sources=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+  local build guest kernel tool
   build=$(realpath "$1")
   rm --force "$build/kernel/guest.cpio"
-  for tool in qemu-system-x86_64 busybox cpio udevadm; do
+  for tool in qemu-system-x86_64 busybox cpio udevadm systemd-sysusers; do
     type -P $tool >/dev/null || {
       echo "found no $tool" >&2
       exit $SKIP
@@ -89,8 +71,7 @@ main() {
   put_penduline
   mkdir --parents "$build/kernel"
   ln --symbolic --force "$kernel/vmlinux" "$build/kernel/vmlinux"
-  (cd "$guest" && find . | cpio --create --format=newc --owner=0:0 --quiet) >"$build/kernel/packing"
-  mv "$build/kernel/packing" "$build/kernel/guest.cpio"
+  pack "$build/kernel/guest.cpio"
 }
 
 main "$1"

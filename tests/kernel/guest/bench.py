@@ -34,13 +34,13 @@ def is_plugged():
     return bool(pathlib.Path(os.environ["UDC_FILE"]).read_text(encoding="utf-8").strip())
 
 
-def wait_until(condition, what, seconds=10):
-    """Waits until `condition()` is true."""
+def wait_until(condition, what, seconds=10, every_s=0.005):
+    """Waits until `condition()` is true, which costs what asking for it every so often costs."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
             raise AssertionError(f"waited {seconds} s in vain for {what}")
-        time.sleep(0.005)
+        time.sleep(every_s)
 
 
 class BenchTest(unittest.TestCase):
