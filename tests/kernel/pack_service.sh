@@ -20,7 +20,8 @@ main() {
   # shellcheck disable=SC2064 # the folder's name now
   trap "rm -rf '$guest'" EXIT
   make_folders
-  put "${PROGRAMS[@]}"
+  # With the rule that loads drivers as devices come.
+  put "${PROGRAMS[@]}" /lib/udev/rules.d/80-drivers.rules
   for unit in "${UNITS[@]}"; do
     install -D --mode=644 --target-directory="$guest/usr/lib/systemd/system" "/usr/lib/systemd/system/$unit"
   done

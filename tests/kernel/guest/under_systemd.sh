@@ -14,4 +14,5 @@ mount -t configfs none /sys/kernel/config
 make_gpio_chip
 make_gadget
 cd /tmp || give_up "enter /tmp"
-run_test python3 "/penduline/${test:?}"
+# shellcheck disable=SC2086 # words
+run_test python3 /penduline/${test:?}
