@@ -10,18 +10,21 @@ _penduline() {
     help=${word#*$'\t'} word=${word%%$'\t'*}
     if [ -n "$word" ]; then
       COMPREPLY+=("$word")
-      continue
+    elif [[ $cur != "$help"* ]]; then
+      COMPREPLY+=("$help")
+    else
+      prefix=$help
+      compopt -o filenames
+      while IFS= read -r file; do
+        COMPREPLY+=("$prefix$file")
+      done < <(compgen -f -- "${cur#"$prefix"}")
     fi
-    prefix=$help
-    compopt -o filenames
-    while IFS= read -r file; do
-      [ -d "$file" ] && file+=/ && compopt -o nospace
-      COMPREPLY+=("$prefix$file")
-    done < <(compgen -f -- "${cur#"$prefix"}")
   done < <("${words[0]}" complete "${words[@]:1:cword}" 2>/dev/null)
   case ${COMPREPLY[*]} in
     *[:/=]) compopt -o nospace ;;
   esac
-  __ltrim_colon_completions "$cur"
+  # What stands before a colon or an equals sign is another word to bash.
+  prefix=${cur%"${cur##*[:=]}"}
+  COMPREPLY=("${COMPREPLY[@]#"$prefix"}")
 }
 complete -F _penduline penduline
