@@ -98,7 +98,7 @@ class Pacer {
       origin_ = now - std::chrono::microseconds(sample.t_us);
     }
     last_t_us_ = sample.t_us;
-    constexpr std::chrono::milliseconds kLongestSleep{500};
+    constexpr std::chrono::milliseconds kLongestSleep{100};
     const auto moment = origin_ + std::chrono::microseconds(sample.t_us);
     while (!stop_.requested() && std::chrono::steady_clock::now() < moment) {
       stop_.sleep_until(std::min(moment, std::chrono::steady_clock::now() + kLongestSleep));
