@@ -15,7 +15,10 @@ PICO_PACKAGES=("${CROSS_PACKAGES[@]}")
 command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
 
 # What the tests on a real kernel are made of (tests/kernel).
-KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev make xz-utils libelf1)
+KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev systemd make xz-utils libelf1)
+
+# What installation, package, manual and completion are tested with.
+PACKAGING_PACKAGES=(systemd dpkg-dev mandoc bash-completion zsh fish)
 
 # install_emulator: the RP2040's, an npm package of the version that its lock file names.
 install_emulator() {
