@@ -15,7 +15,8 @@ COMMAND_LINE = ("console=ttyS0 quiet panic=-1 mitigations=off tsc=reliable no_ti
                 "cryptomgr.notests nowatchdog nolapic_timer")
 # Puts systemd in place of guest/init.sh.
 SYSTEMD = ("rdinit=/penduline/tests/kernel/guest/boot_systemd.sh systemd.unit=guest-test.service "
-           "systemd.show_status=0 systemd.log_target=console systemd.log_color=0")
+           "systemd.show_status=0 systemd.log_target=console systemd.log_level=notice "
+           "systemd.log_color=0")
 # Time goes by the instructions that the guest runs, and leaps while it sleeps. Nobody outside can take part.
 VIRTUAL_TIME = ("-icount", "shift=1,sleep=off")
 # What init.sh ends QEMU with. QEMU's own are 0 where the machine stopped (a panic) and 1 where it failed.
