@@ -21,12 +21,12 @@ make_tree() {
 
 put_udev() {
   put /bin/udevadm /lib/udev/rules.d/{50-udev-default,60-serial}.rules
-  install -D --target-directory="$guest/usr/lib/udev/rules.d" "$sources/packaging/70-penduline.rules"
+  install -D --target-directory="$guest/usr/lib/udev/rules.d" "$sources/host/packaging/70-penduline.rules"
   ln --symbolic udevadm "$guest/usr/bin/systemd-udevd"
   # The rules name groups, of which some are Penduline's.
   cp /etc/group "$guest/etc/"
   grep '^root:' /etc/passwd >"$guest/etc/passwd"
-  systemd-sysusers --root="$guest" "$sources/packaging/penduline.sysusers"
+  systemd-sysusers --root="$guest" "$sources/host/packaging/penduline.sysusers"
 }
 
 # Python and those of its modules that the guest's tests load.

@@ -11,7 +11,7 @@ import unittest
 
 from packaging import PROGRAM, ROOT, ProgramTest
 
-SCRIPTS = ROOT / "packaging/completion"
+SCRIPTS = ROOT / "host/packaging/completion"
 HOME, END = b"\x01", b"\x05"  # Ctrl-A, Ctrl-E
 
 

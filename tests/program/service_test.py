@@ -51,9 +51,9 @@ class ServiceTest(ProgramTest):
         return next(told for told in self.told if told.startswith(line))
 
     def assert_lives(self):
-        """It turns, and says so more often than it has to."""
+        """It turns, and says so as often as it has to, also on a busy machine."""
         self.told = []
-        self.assertGreaterEqual(self.listen(2 * WATCHDOG_S).count("WATCHDOG=1"), 3)
+        self.assertGreaterEqual(self.listen(2 * WATCHDOG_S).count("WATCHDOG=1"), 2)
 
     def stop(self, process):
         """Has it end as the service manager does."""
