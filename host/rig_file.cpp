@@ -109,6 +109,9 @@ tl::expected<RigFile, Error> parse_rig(const std::string& toml_text, const std::
   if (const auto* table = top.section("filter")) {
     read_filter(*table, file.rig, findings);
   }
+  if (const auto* table = top.section("gpio")) {
+    file.lines = read_gpio(*table, findings);
+  }
   top.complain_of_unknown_keys();
   if (findings.error) {
     return tl::unexpected(*findings.error);

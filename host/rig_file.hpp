@@ -8,6 +8,7 @@
 
 #include "common/rig.hpp"
 #include "hal/error.hpp"
+#include "host/gpio_section.hpp"
 
 namespace penduline {
 
@@ -15,6 +16,7 @@ namespace penduline {
 struct RigFile {
   Rig<double> rig;
   std::vector<std::string> sensor_names;
+  RigLines lines;
   std::vector<std::string> complaints;  ///< unknown keys, which are probably misspelt
 };
 

@@ -70,6 +70,14 @@ std::string TomlSection::text_or(std::string_view key, std::string_view words,
   return find(key) == nullptr ? std::move(otherwise) : text(key, words);
 }
 
+bool TomlSection::flag_or(std::string_view key, bool otherwise) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_boolean()) {
+    wrong(key, "true or false");
+  }
+  return node != nullptr ? node->value_or(otherwise) : otherwise;
+}
+
 std::vector<double> TomlSection::numbers(std::string_view key, std::size_t least,
                                          std::size_t most) {
   const toml::node* node = find(key);

@@ -48,6 +48,7 @@ class TomlSection {
   double number_or(std::string_view key, const NumberBounds& bounds, double otherwise);
   std::string text(std::string_view key, std::string_view words);
   std::string text_or(std::string_view key, std::string_view words, std::string otherwise);
+  bool flag_or(std::string_view key, bool otherwise);
   /// An array of `least` to `most` numbers.
   std::vector<double> numbers(std::string_view key, std::size_t least, std::size_t most);
   /// Whether an optional key is there; it counts as known either way.
