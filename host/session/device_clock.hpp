@@ -38,6 +38,10 @@ class DeviceClock {
   /// the first.
   [[nodiscard]] std::optional<HostMoment> host_moment(std::int64_t t_us) const;
 
+  /// The board's time at the host's time `monotonic_us` (CLOCK_MONOTONIC); none before the first
+  /// exchange, and where the board had not started yet.
+  [[nodiscard]] std::optional<std::int64_t> board_time_us(std::int64_t monotonic_us) const;
+
   struct Drift {
     double ppm;              ///< above 0 where the board's clock is fast
     double uncertainty_ppm;  ///< twice the standard deviation
