@@ -47,6 +47,8 @@ inline constexpr std::string_view kBoot = "boot";
 inline constexpr std::string_view kConnected = "connected";
 inline constexpr std::string_view kDisconnected = "disconnected";
 inline constexpr std::string_view kPong = "pong";
+inline constexpr std::string_view kRelease = "release";
+inline constexpr std::string_view kTrigger = "trigger";
 inline constexpr std::string_view kUnrecorded = "unrecorded";
 }  // namespace event
 
@@ -56,7 +58,7 @@ struct EventKindDescription {
   std::string_view meaning;
 };
 
-/// Every kind that this version writes or is to write; others are kept like them.
+/// Every kind that this version writes; others are kept like them.
 inline constexpr std::array kEventKinds = {
     EventKindDescription{event::kBoot, "boot_id, serial, board, firmware",
                          "the board has started anew: the next sample counts as `restarted`"},
@@ -65,8 +67,8 @@ inline constexpr std::array kEventKinds = {
                          "the board is there, or back; `boot` follows where it has started anew"},
     EventKindDescription{event::kPong, "sent_us, t_us, received_us",
                          "the host sent a Ping, the board's clock said, the host had the Pong"},
-    EventKindDescription{"release", "host_us", "the magnet has let the pendulum go"},
-    EventKindDescription{"trigger", "host_us, edge",
+    EventKindDescription{event::kRelease, "host_us, t_us", "the magnet has let the pendulum go"},
+    EventKindDescription{event::kTrigger, "host_us, t_us, edge, queue",
                          "the trigger input went `rising` or `falling`"},
     EventKindDescription{event::kUnrecorded, "samples",
                          "so many samples were measured here and could not be recorded"},

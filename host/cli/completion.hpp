@@ -24,8 +24,8 @@ struct Completion {
                                                const std::vector<std::string>& words,
                                                const std::vector<SerialDevice>& devices);
 
-/// One a line, as the shells' scripts (host/packaging/completion) read them: the word, a tab, the help;
-/// where a file's name follows, a tab and the word.
+/// One a line, as the shells' scripts (host/packaging/completion) read them: the word, a tab, the
+/// help; where a file's name follows, a tab and the word.
 [[nodiscard]] std::string text_of(const std::vector<Completion>& completions);
 
 }  // namespace penduline

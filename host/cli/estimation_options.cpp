@@ -70,7 +70,11 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                      .recorder = {},
                      .note = {},
                      .turned = reporter(run.service),
+                     .beside = {},
                      .warn = log_warning};
+  if (run.lines != nullptr) {
+    parts.beside = [&](const SessionTurn& turn) { return run.lines->turn(turn); };
+  }
   std::unique_ptr<Recorder> recorder;
   if (!run.recording.path.empty()) {
     auto started = start_recorder(run.recording, header, run.live, run.live && !run.paced);
@@ -105,6 +109,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (options.output.layout.utc && !result.clock) {
     log_warning("the source says nothing of its clock: the column utc_s is empty");
   }
+  result.doubtful = result.doubtful || (run.lines != nullptr && run.lines->edges_lost());
   if (recorder) {
     conclude(recorder->finish(), run.live, result);
   }

@@ -11,6 +11,7 @@
 #include "host/cli/output_options.hpp"
 #include "host/cli/recording_options.hpp"
 #include "host/estimator/estimator.hpp"
+#include "host/gpio/session_lines.hpp"
 #include "host/rig_file.hpp"
 #include "host/session/service_manager.hpp"
 #include "host/session/stop_signal.hpp"
@@ -32,6 +33,7 @@ struct EstimationRun {
   RecordingOptions recording{};
   std::string input_path{};           ///< "": the samples come from no file
   ServiceManager* service = nullptr;  ///< told of a live run's turns; none: nobody
+  SessionLines* lines = nullptr;      ///< of a board that is there; may be none
 };
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options);

@@ -2,6 +2,7 @@
 // `penduline run`: samples as they come, estimates at once.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "common/wire/commands.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
+#include "host/cli/line_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/simulation_options.hpp"
 #include "host/session/service_manager.hpp"
@@ -26,6 +28,9 @@
 namespace penduline {
 namespace {
 
+/// How long a board's USB may take to be there again.
+constexpr std::chrono::seconds kPatienceAfterReset{5};
+
 struct RunOptions {
   EstimationOptions estimation;
   SimulationOptions simulation;
@@ -33,13 +38,12 @@ struct RunOptions {
   RecordingOptions recording;
   bool fast = false;
   BoardSettings board;
+  LineOptions lines;
 };
 
-tl::expected<std::unique_ptr<Source>, Error> open_source(const RunOptions& options,
-                                                         const SourceUri& uri,
-                                                         const Rig<double>& rig,
-                                                         const StopSignal& stop,
-                                                         ServiceManager& service) {
+tl::expected<std::unique_ptr<Source>, Error> open_source(
+    const RunOptions& options, const SourceUri& uri, const Rig<double>& rig, const StopSignal& stop,
+    ServiceManager& service, SessionLines* lines) {
   if (uri.kind == SourceUri::Kind::kSimulation) {
     SimulationSettings settings = simulation_settings(options.simulation, rig);
     settings.duration_s = options.simulation.seconds;
@@ -48,17 +52,20 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(const RunOptions& optio
   if (uri.kind == SourceUri::Kind::kRecording) {
     return open_recording(uri.path);
   }
-  return BoardSource::open(port_opener(uri), options.board,
-                           {.say =
-                                [&](const std::string& news) {
-                                  log_info(news);
-                                  service.tell(news);
-                                },
-                            .stop_requested =
-                                [&] {
-                                  service.turned();  // while there is no session yet that turns
-                                  return stop.requested();
-                                }});
+  BoardListener listener{.say =
+                             [&](const std::string& news) {
+                               log_info(news);
+                               service.tell(news);
+                             },
+                         .stop_requested =
+                             [&] {
+                               service.turned();  // while there is no session yet that turns
+                               return stop.requested();
+                             }};
+  if (lines != nullptr) {
+    listener.attempted = [lines](BoardAttempt attempt) { lines->attempted(attempt); };
+  }
+  return BoardSource::open(port_opener(uri), options.board, std::move(listener));
 }
 
 /// The rate to ask a board for; none where no option says one.
@@ -83,13 +90,17 @@ std::map<std::string, wire::EmitterMode> emitter_modes() {
   return modes;
 }
 
-/// Whether samples come at their own pace: not where a board's bytes lie in a file.
-bool is_live(const RunOptions& options, const SourceUri& source) {
+/// Whether the source is a board's bytes that lie in a file.
+bool is_stored(const SourceUri& source) {
   std::error_code not_there;
-  const bool stored =
-      source.kind == SourceUri::Kind::kSerial &&
-      std::filesystem::is_regular_file(source.path == "-" ? "/dev/stdin" : source.path, not_there);
-  return !options.fast && !stored;
+  return source.kind == SourceUri::Kind::kSerial &&
+         std::filesystem::is_regular_file(source.path == "-" ? "/dev/stdin" : source.path,
+                                          not_there);
+}
+
+/// Whether samples come at their own pace.
+bool is_live(const RunOptions& options, const SourceUri& source) {
+  return !options.fast && !is_stored(source);
 }
 
 ExitStatus run(const RunOptions& options, const SourceUri& source) {
@@ -97,10 +108,19 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
   if (!rig) {
     return log_failure(rig.error());
   }
+  require_lines(options.lines, rig->lines, options.estimation.rig_path);
   const StopSignal stop;
+  std::unique_ptr<SessionLines> lines;
+  if (source.is_board() && !is_stored(source)) {
+    auto opened = open_lines(options.lines, rig->lines, !options.recording.path.empty());
+    if (!opened) {
+      return log_failure(opened.error());
+    }
+    lines = std::move(*opened);
+  }
   ServiceManager service;
   service.ready("opening " + options.uri);
-  auto opened = open_source(options, source, rig->rig, stop, service);
+  auto opened = open_source(options, source, rig->rig, stop, service, lines.get());
   if (!opened && stop.requested()) {
     log_info(opened.error().message);
     return ExitStatus::kDone;
@@ -110,7 +130,8 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
                    .paced = !options.fast && !source.is_board(),
                    .recording = options.recording,
                    .input_path = source.path,
-                   .service = &service},
+                   .service = &service,
+                   .lines = lines.get()},
                   *rig, std::move(opened), stop);
 }
 
@@ -136,6 +157,7 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       ->type_name("switched|lit|dark");
   command->add_flag("--once", options->board.once,
                     "Fail where there is no board, or it goes, instead of waiting for it");
+  add_line_options(*command, options->lines);
   command->add_flag("--fast", options->fast, "Do not wait for the samples' own times");
   add_simulation_options(*command, options->simulation,
                          "Until when a simulation runs; else endless");
@@ -153,14 +175,19 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
     }
     if (source->is_board()) {
       refuse_simulation_options(*command, "is for the source sim: only", "--rate");
+      options->board.patience =
+          options->lines.reset ? kPatienceAfterReset : std::chrono::seconds(0);
       options->board.rate_millihz = rate_millihz(*command, options->simulation.settings.rate_hz);
     } else if (source->kind != SourceUri::Kind::kSimulation) {
       refuse_simulation_options(*command, "is for the source sim: only");
     }
-    for (const char* name : {"--once", "--emitter"}) {
+    for (const char* name : {"--once", "--emitter", "--reset", "--release"}) {
       if (command->count(name) > 0 && !source->is_board()) {
         throw CLI::ValidationError(name, "is for a board only");
       }
+    }
+    if (is_stored(*source)) {
+      refuse_line_options(options->lines, "is for a board, not for its bytes in a file");
     }
     if (!is_live(*options, *source) || is_offline(options->estimation.estimator.kind)) {
       refuse_network_outputs(options->estimation.output);

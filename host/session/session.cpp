@@ -84,6 +84,20 @@ void follow(std::optional<DeviceClock>& clock, const RecordingEvent& event) {
   }
 }
 
+/// Has `beside` take its turn, and notes what it tells.
+void look_beside(const SessionParts& parts, bool sample, std::span<const RecordingEvent> events,
+                 const std::optional<DeviceClock>& clock) {
+  if (!parts.beside) {
+    return;
+  }
+  for (const RecordingEvent& event :
+       parts.beside({.sample = sample, .events = events, .clock = clock})) {
+    if (parts.note) {
+      parts.note(event);
+    }
+  }
+}
+
 /// Keeps to the samples' own times.
 class Pacer {
  public:
@@ -139,6 +153,7 @@ tl::expected<void, Error> pass_samples(const SessionParts& parts, const SessionO
         parts.note(event);
       }
     }
+    look_beside(parts, read && *read == ReadResult::kSample, parts.source.events(), result.clock);
     if (!read) {
       return tl::unexpected(read.error());
     }
@@ -180,6 +195,7 @@ SessionResult run_session(const SessionParts& parts, const SessionOptions& optio
   SessionResult result{.summary = Summary(parts.source.header().acquisition)};
   CountingSink sink(parts, result);
   auto outcome = pass_samples(parts, options, stop, sink, result);
+  look_beside(parts, false, {}, result.clock);
   const bool ended = outcome && !stop.requested();
   // An offline estimator answers now, also for what came before a failure.
   if (!sink.output_failed()) {

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "hal/replay/recording_event.hpp"
 #include "host/estimator/estimator.hpp"
@@ -16,6 +18,13 @@
 #include "host/source/source.hpp"
 
 namespace penduline {
+
+/// What one turn of a session's loop has brought.
+struct SessionTurn {
+  bool sample = false;
+  std::span<const RecordingEvent> events{};  ///< the source's
+  const std::optional<DeviceClock>& clock;   ///< the board's, where it was asked for it
+};
 
 /// What takes part in a session.
 struct SessionParts {
@@ -29,6 +38,9 @@ struct SessionParts {
   /// Told several times a second where samples come in their own time, also without any, what has
   /// been counted; may be empty.
   std::function<void(const Summary&)> turned{};
+  /// Told every turn of the loop, and once more at its end; tells what has happened beside the
+  /// source since the one before. May be empty.
+  std::function<std::vector<RecordingEvent>(const SessionTurn&)> beside{};
   /// Told, once for each kind, what is doubtful in the data.
   std::function<void(const std::string&)> warn;
 };

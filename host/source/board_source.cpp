@@ -34,6 +34,7 @@ tl::expected<std::unique_ptr<Source>, Error> BoardSource::open(PortOpener opener
                                                                BoardListener listener) {
   std::unique_ptr<BoardSource> source(
       new BoardSource(std::move(opener), settings, std::move(listener)));
+  source->patient_until_ = Clock::now() + settings.patience;
   while (!source->connection_) {
     if (source->listener_.stop_requested()) {
       return failure("stopped before a board had said Hello");
@@ -53,7 +54,7 @@ tl::expected<void, Error> BoardSource::try_again() {
     wait_ = kShortestWait;
     return {};
   }
-  if (settings_.once) {
+  if (settings_.once && Clock::now() >= patient_until_) {
     return connected;
   }
   if (!std::exchange(waiting_told_, true)) {
@@ -67,12 +68,14 @@ tl::expected<void, Error> BoardSource::try_again() {
 tl::expected<void, Error> BoardSource::connect() {
   auto port = opener_();
   if (!port) {
+    listener_.attempted(BoardAttempt::kNoPort);
     return tl::unexpected(port.error());
   }
   // What has no way back is a file or a pipe: it will not get better by waiting.
   settings_.once = settings_.once || !(*port)->two_way();
   port_name_ = (*port)->name();
   auto connection = BoardConnection::open(std::move(*port), listener_.stop_requested);
+  listener_.attempted(connection ? BoardAttempt::kAnswer : BoardAttempt::kNoAnswer);
   if (!connection) {
     return tl::unexpected(connection.error());
   }

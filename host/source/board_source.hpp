@@ -27,15 +27,21 @@ using PortOpener = std::function<tl::expected<std::unique_ptr<BytePort>, Error>(
 
 struct BoardSettings {
   bool once = false;  ///< fail instead of waiting for a board, at the start and later
-  std::optional<std::uint32_t> rate_millihz{};      ///< none: as the board says first
+  std::chrono::milliseconds patience{0};        ///< at the start, even so: it is just being reset
+  std::optional<std::uint32_t> rate_millihz{};  ///< none: as the board says first
   std::optional<wire::EmitterMode> emitter_mode{};  ///< the same
 };
+
+/// What came of one attempt to talk to a board.
+enum class BoardAttempt { kNoPort, kNoAnswer, kAnswer };
 
 /// Who is told and asked, during `open` and `read`.
 struct BoardListener {
   /// Takes news for a person: the board is waited for, has gone, is back.
   std::function<void(const std::string&)> say;
   std::function<bool()> stop_requested;
+  /// Told of every attempt; without an answer the port is closed by then.
+  std::function<void(BoardAttempt)> attempted = [](BoardAttempt /*attempt*/) {};
 };
 
 class BoardSource final : public Source {
@@ -82,6 +88,7 @@ class BoardSource final : public Source {
   std::uint32_t boot_id_ = 0;         ///< of the start that it is in
   std::string firmware_;              ///< the same
   bool restarted_ = false;            ///< the next sample is the first after a start
+  Clock::time_point patient_until_;   ///< where `settings_.once`
   std::string port_name_;             ///< of the last connection
   std::string refusal_;               ///< why a board that is there was not taken, said last
   bool waiting_told_ = false;         ///< that the board is waited for
