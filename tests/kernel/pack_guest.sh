@@ -11,6 +11,7 @@ sources=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 
 make_tree() {
   local applet
+  chmod 755 "$guest" # for those who are not root
   make_folders
   mkdir --parents "$guest"/{dev,proc,sys,run,tmp,etc}
   put /bin/busybox
