@@ -107,6 +107,29 @@ TEST_CASE("A board is waited for with one message, or not at all", "[board]") {
   CHECK(once.error == "script: gone");
 }
 
+TEST_CASE("Each attempt to talk to a board is told: no port, no answer, an answer", "[board]") {
+  const Heard heard = listen({{.refusal = "script: none"},
+                              {.pieces = {"AT+GCAP\r"}},
+                              {.pieces = {kHello, sample_frame(0)}}});
+  CHECK(seqs_of(heard) == Seqs{0});
+  REQUIRE(heard.attempts.size() >= 3);
+  CHECK(heard.attempts[0] == BoardAttempt::kNoPort);
+  CHECK(heard.attempts[1] == BoardAttempt::kNoAnswer);
+  CHECK(heard.attempts[2] == BoardAttempt::kAnswer);
+}
+
+TEST_CASE("A board that is just being reset may be late, even where none is waited for",
+          "[board]") {
+  const std::vector<Life> lives = {{.refusal = "script: none"},
+                                   {.refusal = "script: none"},
+                                   {.pieces = {kHello, sample_frame(0)}}};
+  const Heard heard = listen(lives, {.once = true, .patience = std::chrono::seconds(10)});
+  CHECK(seqs_of(heard) == Seqs{0});
+  CHECK(heard.error == "script: gone");
+  CHECK(listen(lives, {.once = true, .patience = std::chrono::milliseconds(1)}).error ==
+        "script: none");
+}
+
 TEST_CASE("Another board in the place of the first is refused by its number", "[board]") {
   wire::Hello other = hello_of_boot(9);
   other.unique_id[7] = 0x22;

@@ -94,6 +94,7 @@ struct Heard {
   std::vector<std::string> events{};
   std::vector<std::string> complaints{};
   std::vector<std::uint8_t> commands{};
+  std::vector<BoardAttempt> attempts{};
   std::string error{};
   RecordingHeader header{};
 };
@@ -122,7 +123,8 @@ inline Heard listen(std::vector<Life> lives, const BoardSettings& settings = {})
       },
       settings,
       {.say = [&](const std::string& text) { heard.said.push_back(text); },
-       .stop_requested = [&] { return over; }});
+       .stop_requested = [&] { return over; },
+       .attempted = [&](BoardAttempt attempt) { heard.attempts.push_back(attempt); }});
   if (!source) {
     heard.error = source.error().message;
     return heard;

@@ -106,6 +106,35 @@ TEST_CASE("Rows that come after a restart, of samples before it, have no date", 
   CHECK_FALSE(done.estimates.front().utc_us);
 }
 
+TEST_CASE("What happens beside the source is noted before the sample of its turn", "[session]") {
+  ScriptedSource source(rest_samples(2));
+  source.events_before[1] = {{.kind = "connected"}};
+  const auto estimator = make_estimator({}, paper_rig(), {}).value();
+  KeepingSink sink;
+  Lines order;
+  const SessionParts parts{
+      .source = source,
+      .estimator = *estimator,
+      .output = sink,
+      .recorder =
+          [&](const Sample& sample) {
+            order.push_back(std::to_string(sample.seq));
+            return tl::expected<void, Error>();
+          },
+      .note = [&](const RecordingEvent& event) { order.push_back(event.kind); },
+      .beside =
+          [&](const SessionTurn& turn) {
+            const std::string from = turn.events.empty() ? "" : " after " + turn.events[0].kind;
+            return std::vector<RecordingEvent>{
+                {.kind = (turn.sample ? "with sample" : "without") + from}};
+          },
+      .warn = [](const std::string&) {}};
+  REQUIRE_FALSE(run_session(parts, {}, StopSignal()).error);
+  // The reading that finds the end, and the end.
+  CHECK(order == Lines{"with sample", "0", "connected", "with sample after connected", "1",
+                       "without", "without"});
+}
+
 TEST_CASE("A session without faults warns of nothing", "[session]") {
   const Run done = run(rest_samples(50));
   CHECK(done.warnings.empty());
