@@ -167,7 +167,13 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "  penduline run sim: --rig rig.toml --case conical\n"
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv\n"
       "  penduline run serial:/dev/ttyACM0 --rig rig.toml -o udp:localhost:9870 \\\n"
-      "    -o mqtt://broker/lab/rig1 -o angles.csv");
+      "    -o mqtt://broker/lab/rig1 -o angles.csv\n"
+      "  penduline run auto --rig rig.toml --reset --release 2 --record rec.csv\n\n"
+      "Of a board, the rig file's [gpio] may name lines of this computer: a light that is lit "
+      "while\n"
+      "samples come, a trigger whose edges are recorded, and a reset, also for a board that does "
+      "not\n"
+      "talk any more.");
   command->final_callback([options, command, &status] {
     const auto source = parse_uri(options->uri);
     if (!source) {

@@ -43,6 +43,14 @@ class DocsTest(ProgramTest):
         for (name, meaning), bit in zip(flags, bits):
             self.assertIn(f"| {2 ** bit} | `{name}` | {meaning} |", formats)
 
+    def test_formats_lists_every_line_of_a_rig(self):
+        formats = (ROOT / "docs/formats.md").read_text()
+        section = (ROOT / "host/gpio_section.hpp").read_text()
+        keys = re.findall(r'GpioKeyDescription\{"(\w+)", &RigLines::\w+,\s+"([^"]+)"\}', section)
+        self.assertEqual(len(keys), len(re.findall(r"std::optional<GpioLine> \w+;", section)))
+        for key, meaning in keys:
+            self.assertIn(f"| `[gpio] {key}` | no | {meaning} |", formats)
+
     def test_commands_in_the_documents_work(self):
         for document in documents():
             for block in shell_blocks(document.read_text()):

@@ -68,6 +68,40 @@ class RunTest(ProgramTest):
         self.assertIn("the integrator has blown up", done.stderr)
         self.assertIn("info: 10 samples", done.stderr)
 
+    def rig_with_lines(self, keys):
+        return self.write("rig.toml", (RIGS / "paper.toml").read_text() + "[gpio]\n" + keys)
+
+    def test_options_of_lines_are_for_a_board_that_is_there(self):
+        rig = self.rig_with_lines('reset = "A"\nrelease = "B"\n')
+        recording, _ = self.simulate()
+        for option in (["--reset"], ["--release", "1"]):
+            for source in ("sim:", f"file:{recording}"):
+                done = run("run", source, "--rig", rig, *option, status=2)
+                self.assertIn(f"{option[0]}: is for a board only", done.stderr)
+            done = run("run", f"serial:{recording}", "--rig", rig, *option, status=2)
+            self.assertIn(f"{option[0]}: is for a board, not for its bytes in a file", done.stderr)
+
+    def test_options_of_lines_need_the_lines_in_the_rig(self):
+        rig = RIGS / "paper.toml"
+        for option, key in ((["--reset"], "reset"), (["--release", "1"], "release")):
+            done = run("run", "serial:/dev/null", "--rig", rig, *option, status=2)
+            self.assertIn(f"{option[0]}: found no [gpio] {key} in {rig}, expected the line's name",
+                          done.stderr)
+
+    def test_the_time_of_the_release_is_checked(self):
+        done = run("run", "auto", "--rig", RIGS / "paper.toml", "--release", "-1", status=2)
+        self.assertIn("--release: found -1, expected a number from 0 to 86400", done.stderr)
+
+    def test_a_line_that_this_computer_does_not_have_ends_a_run(self):
+        rig = self.rig_with_lines('status_led = "no such line"\n')
+        done = run("run", "serial:/dev/null", "--rig", rig, status=1)
+        self.assertRegex(done.stderr, "^error: GPIO line 'no such line': [^\n]*\n$")
+
+    def test_a_rig_with_lines_serves_a_simulation_that_uses_none(self):
+        rig = self.rig_with_lines('status_led = "no such line"\ntrigger = "nor this"\n')
+        done = run("run", "sim:", "--rig", rig, "--seconds", 1, "--fast")
+        self.assertNotIn("warning", done.stderr)
+
     def test_an_unknown_source_says_which_there_are(self):
         done = run("run", "magic:", "--rig", RIGS / "paper.toml", status=2)
         self.assertIn("SOURCE: found 'magic:', expected auto, serial:PATH, usb:VID:PID, file:PATH or "
