@@ -87,6 +87,7 @@ tl::expected<void, Error> UsbPort::find(const UsbIdentity& identity) {
     }
   }
   if (serial_numbers.size() > 1) {
+    std::ranges::sort(serial_numbers);  // libusb's order is that of chance
     return failure(fmt::format("{}: found {} such devices, expected one: add :SERIAL, one of {}",
                                name_, serial_numbers.size(), fmt::join(serial_numbers, ", ")));
   }
