@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "hal/error.hpp"
+
 namespace penduline {
 namespace {
 
@@ -17,9 +19,10 @@ using Udev = std::unique_ptr<udev, decltype(&udev_unref)>;
 using Enumeration = std::unique_ptr<udev_enumerate, decltype(&udev_enumerate_unref)>;
 using Device = std::unique_ptr<udev_device, decltype(&udev_device_unref)>;
 
+/// Fit to be printed: a device may say what it likes of itself.
 std::string attribute(udev_device* device, const char* name) {
   const char* value = udev_device_get_sysattr_value(device, name);
-  return value == nullptr ? "" : value;
+  return value == nullptr ? "" : one_line(value);
 }
 
 /// The device of a tty that is a USB device's; an empty path otherwise.
