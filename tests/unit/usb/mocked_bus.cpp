@@ -9,7 +9,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace penduline::test {
@@ -88,17 +92,31 @@ void MockedBus::plug_in(const PluggedDevice& device) {
 }
 
 void MockedBus::unplug(const PluggedDevice& device) {
-  umockdev_testbed_uevent(testbed(), sys_path_of(device).c_str(), "remove");
-  umockdev_testbed_remove_device(testbed(), sys_path_of(device).c_str());
+  const auto [begin, end] = children_.equal_range(device.port);
+  std::for_each(std::reverse_iterator(end), std::reverse_iterator(begin),
+                [&](const auto& child) { remove(child.second); });
+  children_.erase(device.port);
+  remove(sys_path_of(device));
 }
 
 void MockedBus::add_serial_port(const PluggedDevice& device, const std::string& name) {
   const std::string interface = fmt::format("{}/{}:1.0", path_of(device), device.port);
   add(fmt::format("P: {}\nE: DEVTYPE=usb_interface\nE: SUBSYSTEM=usb\n\n", interface));
+  const std::string tty = fmt::format("{}/tty/{}", interface, name);
   add(
-      fmt::format("P: {}/tty/{}\nN: {}\nE: DEVNAME=/dev/{}\nE: SUBSYSTEM=tty\n"
+      fmt::format("P: {}\nN: {}\nE: DEVNAME=/dev/{}\nE: SUBSYSTEM=tty\n"
                   "E: MAJOR=166\nE: MINOR=0\nA: dev=166:0\n\n",
-                  interface, name, name, name));
+                  tty, name, name));
+  children_.emplace(device.port, "/sys" + interface);
+  children_.emplace(device.port, "/sys" + tty);
+}
+
+void MockedBus::make_file_of(const std::string& name) const {
+  const std::unique_ptr<char, decltype(&g_free)> root(umockdev_testbed_get_root_dir(testbed()),
+                                                      g_free);
+  const std::filesystem::path node = std::filesystem::path(root.get()) / "dev" / name;
+  std::filesystem::remove(node);
+  std::ofstream{node};
 }
 
 void MockedBus::add_platform_port(const std::string& name) {
@@ -118,9 +136,9 @@ void MockedBus::set_attribute(const PluggedDevice& device, const std::string& na
                                  value.c_str());
 }
 
-void MockedBus::forbid(const PluggedDevice& device) {
-  if (::chmod(node(device).c_str(), 0) != 0) {
-    throw std::runtime_error("cannot forbid " + node(device));
+void MockedBus::forbid(const std::string& node) {
+  if (::chmod(node.c_str(), 0) != 0) {
+    throw std::runtime_error("cannot forbid " + node);
   }
 }
 
@@ -136,10 +154,15 @@ void MockedBus::add(const std::string& description) {
   }
 }
 
+void MockedBus::remove(const std::string& sys_path) {
+  umockdev_testbed_uevent(testbed(), sys_path.c_str(), "remove");
+  umockdev_testbed_remove_device(testbed(), sys_path.c_str());
+}
+
 WithoutPrivileges::WithoutPrivileges() {
   auto [header, capabilities] = own_capabilities();
   before_ = capabilities[0].effective;
-  capabilities[0].effective &= ~CAP_TO_MASK(CAP_DAC_OVERRIDE);
+  capabilities[0].effective &= ~(CAP_TO_MASK(CAP_DAC_OVERRIDE) | CAP_TO_MASK(CAP_DAC_READ_SEARCH));
   ::syscall(SYS_capset, &header, capabilities.data());
 }
 

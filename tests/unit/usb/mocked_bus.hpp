@@ -5,6 +5,7 @@
 #include <umockdev.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -42,6 +43,9 @@ class MockedBus {
 
   /// The kernel's driver has made a serial port of a device that is plugged in.
   void add_serial_port(const PluggedDevice& device, const std::string& name);
+  /// Puts an empty file in the place of a serial port, which otherwise is a pseudo-terminal:
+  /// libumockdev's realpath() destroys memory where a node leads out of its /dev.
+  void make_file_of(const std::string& name) const;
   /// A serial port of the computer's own.
   void add_platform_port(const std::string& name);
   /// The board's end of a serial port that has been added.
@@ -50,8 +54,8 @@ class MockedBus {
   /// An attribute of a device in /sys, as it stands there.
   void set_attribute(const PluggedDevice& device, const std::string& name,
                      const std::string& value);
-  /// Takes the permission to open the device from everybody.
-  void forbid(const PluggedDevice& device);
+  /// Takes the permission to open it from everybody: "/dev/ttyACM0".
+  static void forbid(const std::string& node);
 
   [[nodiscard]] UMockdevTestbed* testbed() const { return testbed_.get(); }
   /// "/dev/bus/usb/001/002".
@@ -59,8 +63,10 @@ class MockedBus {
 
  private:
   void add(const std::string& description);
+  void remove(const std::string& sys_path);
 
   Reference<UMockdevTestbed> testbed_;
+  std::multimap<std::string, std::string> children_;  ///< of a port's device, by their paths
 };
 
 /// As long as it lives, this thread may not do more with files than their permissions say, though

@@ -87,7 +87,7 @@ TEST_CASE("A board without a serial number is found by its numbers alone", "[usb
 TEST_CASE("A board that the user may not open is told with what helps", "[usb_port]") {
   MockedBus bus;
   const MockedUsbBoard board(bus);
-  bus.forbid({});
+  MockedBus::forbid(MockedBus::node({}));
   const WithoutPrivileges user;
   CHECK(refusal(kAnyBoard) ==
         "usb:1209:0001: found it, but may not open it: install Penduline's udev rules, or run as "
@@ -99,7 +99,7 @@ TEST_CASE("A board that the user may open is taken beside one that he may not", 
   MockedBus bus;
   const MockedUsbBoard first(bus);
   const MockedUsbBoard second(bus, second_board());
-  bus.forbid({});
+  MockedBus::forbid(MockedBus::node({}));
   const WithoutPrivileges user;
   CHECK(refusal(second_board().identity).empty());
 }
