@@ -59,7 +59,7 @@ class Rig:
     def end(self, measured_from):
         """Ends the run, then the board; latencies in seconds of the rows from then on, samples lost, rows that
         are missing, samples recorded."""
-        self.run.process.send_signal(signal.SIGINT)
+        self.run.process.send_signal(signal.SIGTERM)
         while select.select([self.pipe], [], [], 5)[0]:
             before = len(self.text), len(self.arrivals)
             self.take()
