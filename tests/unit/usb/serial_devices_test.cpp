@@ -153,7 +153,10 @@ TEST_CASE("The board that auto found first is found again under another name", "
   other.identity = {
       .vendor = kPendulineVendor, .product = kPendulineProduct, .serial_number = "E1"};
   plug_in(bus, other, "ttyACM1");
-  CHECK(open().error().message ==
+  bus.make_file_of("ttyACM1");
+  const auto absent = open();
+  REQUIRE(!absent);
+  CHECK(absent.error().message ==
         "found no serial port of the USB device 1209:0001:E6605838831B2C21");
   plug_in(bus, kPico, "ttyACM2");
   bus.make_file_of("ttyACM2");
