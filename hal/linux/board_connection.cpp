@@ -97,6 +97,7 @@ tl::expected<std::optional<wire::Frame>, Error> BoardConnection::next_frame(mill
 
 tl::expected<std::optional<wire::Frame>, Error> BoardConnection::receive(milliseconds patience) {
   const auto deadline = steady_clock::now() + patience;
+  bool read_some = false;
   while (true) {
     while (begin_ < end_) {
       if (auto frame = decoder_.push(bytes_[begin_++])) {
@@ -105,6 +106,9 @@ tl::expected<std::optional<wire::Frame>, Error> BoardConnection::receive(millise
       }
     }
     const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
+    if (read_some && left <= milliseconds(0)) {
+      return std::nullopt;  // bytes come and come, none of them a frame's
+    }
     const auto got = port_->read(bytes_, std::max(left, milliseconds(0)));
     if (!got) {
       return tl::unexpected(got.error());
@@ -118,7 +122,7 @@ tl::expected<std::optional<wire::Frame>, Error> BoardConnection::receive(millise
     }
     begin_ = 0;
     end_ = got->bytes;
-    bytes_seen_ = true;
+    bytes_seen_ = read_some = true;
   }
 }
 

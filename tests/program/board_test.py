@@ -78,6 +78,11 @@ class BoardTest(ProgramTest):
         status, said = started.end()
         self.assertEqual((status, said[-1]), (1, f"error: {self.port}: the board has gone"))
 
+    def test_bytes_that_come_for_ever_and_are_no_boards_are_given_up(self):
+        done = run("run", "serial:/dev/zero", "--once", "--rig", RIG, status=1)
+        self.assertEqual(done.stderr, "error: /dev/zero: found bytes that are not its frames, expected a "
+                         "Penduline board that says Hello\n")
+
     def test_a_second_run_is_told_who_has_the_port(self):
         self.plug()
         self.start().wait_for_rows(1)
