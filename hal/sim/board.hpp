@@ -30,6 +30,8 @@ struct Surroundings {
   wire::ResetCause last_reset = wire::ResetCause::kPowerOn;
   std::uint64_t since_us = 0;  ///< from the rig's start to the board's last reset
   std::uint64_t serial_number = 0;
+  /// How often the board wakes without an alarm, to look what has come on its link.
+  std::uint64_t tick_us = 1000;
 };
 
 /// The flash as the firmware sees it: while it is written interrupts wait.
@@ -78,8 +80,6 @@ class Board {
  public:
   static constexpr std::string_view kName = "sim";
   static constexpr std::uint32_t kReferenceUv = 3'300'000;
-  /// How often it wakes without an alarm, to look what has come on its link.
-  static constexpr std::uint64_t kTickUs = 1000;
 
   explicit Board(Surroundings<Link>& surroundings)
       : surroundings_(surroundings),
@@ -88,7 +88,7 @@ class Board {
         resets_(surroundings.last_reset),
         flash_(surroundings.flash, clock_),
         id_(surroundings.serial_number) {
-    clock_.set_alarm(Alarm::kTick, kTickUs);
+    clock_.set_alarm(Alarm::kTick, surroundings_.tick_us);
   }
   Board(const Board&) = delete;
   Board& operator=(const Board&) = delete;
@@ -120,7 +120,7 @@ class Board {
         sampler_.on_burst_done();
         break;
       case Alarm::kTick:
-        clock_.set_alarm(Alarm::kTick, clock_.now_us() + kTickUs);
+        clock_.set_alarm(Alarm::kTick, clock_.now_us() + surroundings_.tick_us);
         break;
     }
     if (watchdog_.expired()) {

@@ -119,9 +119,9 @@ def measure(name, rigs, rate_hz, seconds):
 
 def main():
     if "--hour" in sys.argv:
-        runs = [("an hour at 1 kHz", 1, 1000, 3600)]
+        runs = [("1 at 1 kHz, an hour", 1, 1000, 3600)]
     else:
-        runs = [("20 Hz", 1, 20, 30), ("1 kHz", 1, 1000, 30), ("64 rigs at 20 Hz", 64, 20, 30)]
+        runs = [("1 at 20 Hz", 1, 20, 60), ("1 at 1 kHz", 1, 1000, 60), ("64 at 20 Hz", 64, 20, 30)]
     for run in runs:
         print(json.dumps(measure(*run)), flush=True)
 

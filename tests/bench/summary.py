@@ -83,6 +83,15 @@ def print_replay(parts, replays):
           f"{run['peak_kib'] / 1024:.1f}"] for name, run in replays.items()])
 
 
+def print_live(runs):
+    print_table(
+        "Live, over pseudo-terminals: from a window's end to its row, in ms; a run's share of a core",
+        ["boards and rate", "median", "99 %", "worst", "share", "samples", "lost"],
+        [[name, *(f"{run[key] * 1e3:.2f}" for key in ("p50_s", "p99_s", "worst_s")),
+          f"{run['core_share'] / run['rigs']:.2%}", f"{run['samples']:,}",
+          f"{run['lost'] + run['rows_missing']:,}"] for name, run in runs.items()])
+
+
 def print_bars(solvers, replays):
     def ratio_to(name, mode=""):
         return solvers[name + mode]["s_per_solve"] / solvers[OURS + mode]["s_per_solve"]
@@ -127,6 +136,7 @@ def main():
     print_inverse(solvers)
     print_fir(medians("fir.json"))
     print_replay(medians("pipeline.json"), replays)
+    print_live(lines(path("live.jsonl")))
     spread = sorted(spreads("inverse.json") + spreads("fir.json") + spreads("pipeline.json"))
     print(f"\nSpread of the repetitions: {spread[len(spread) // 2]:.1%} in the middle, "
           f"{spread[-1]:.1%} at worst")

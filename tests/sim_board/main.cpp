@@ -132,6 +132,10 @@ tl::expected<Surroundings, Error> make_surroundings(const Options& options,
                        : sim::FileLink(STDIN_FILENO, STDOUT_FILENO),
       .flash = *flash,
       .serial_number = settings.seed};
+  if (!options.fast) {
+    constexpr std::uint64_t kTickOfManyBoardsUs = 5000;
+    surroundings.tick_us = kTickOfManyBoardsUs;
+  }
   // In real time two runs are two boots; as fast as possible one seed gives one stream.
   const std::int64_t now_ns = std::chrono::system_clock::now().time_since_epoch().count();
   surroundings.kept.boot_id = static_cast<std::uint32_t>(settings.seed) ^
