@@ -44,7 +44,7 @@ std::string serial_number_of(libusb_device_handle* device, std::uint8_t index) {
 
 }  // namespace
 
-tl::expected<std::unique_ptr<BytePort>, Error> UsbPort::open(const UsbIdentity& identity) {
+tl::expected<std::unique_ptr<UsbPort>, Error> UsbPort::open(const UsbIdentity& identity) {
   std::unique_ptr<UsbPort> port(new UsbPort());
   port->name_ = "usb:" + identity.text();
   if (const int code = libusb_init(&port->context_); code != LIBUSB_SUCCESS) {
@@ -83,6 +83,8 @@ tl::expected<void, Error> UsbPort::find(const UsbIdentity& identity) {
     }
     serial_numbers.push_back(serial_number);
     if (device_ == nullptr) {
+      identity_ = identity;
+      identity_.serial_number = serial_number;
       device_ = handle.release();
     }
   }

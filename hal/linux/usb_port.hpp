@@ -21,7 +21,7 @@ class UsbPort final : public BytePort {
   /// Opens the one device of this identity and takes its interfaces from the kernel's driver, which
   /// gets them back in the end. Fails where there is none, more than one, or one that may not be
   /// opened, saying what to do.
-  static tl::expected<std::unique_ptr<BytePort>, Error> open(const UsbIdentity& identity);
+  static tl::expected<std::unique_ptr<UsbPort>, Error> open(const UsbIdentity& identity);
 
   UsbPort(const UsbPort&) = delete;
   UsbPort& operator=(const UsbPort&) = delete;
@@ -32,6 +32,8 @@ class UsbPort final : public BytePort {
   tl::expected<void, Error> write(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool two_way() const override { return true; }
   [[nodiscard]] const std::string& name() const override { return name_; }
+  /// The device's own, its serial number included.
+  [[nodiscard]] const UsbIdentity& identity() const { return identity_; }
 
  private:
   UsbPort() = default;
@@ -40,6 +42,7 @@ class UsbPort final : public BytePort {
   [[nodiscard]] Error error(const char* what, int code) const;
 
   std::string name_;
+  UsbIdentity identity_;
   libusb_context* context_ = nullptr;
   libusb_device_handle* device_ = nullptr;
   int control_interface_ = -1;

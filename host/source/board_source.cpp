@@ -66,7 +66,7 @@ tl::expected<void, Error> BoardSource::try_again() {
 }
 
 tl::expected<void, Error> BoardSource::connect() {
-  auto port = opener_();
+  auto port = opener_(hello_.has_value());
   if (!port) {
     listener_.attempted(BoardAttempt::kNoPort);
     return tl::unexpected(port.error());
@@ -88,11 +88,7 @@ tl::expected<void, Error> BoardSource::connect() {
       return same;
     }
   }
-  // As it is asked to, or as it did before it started anew.
-  const wire::Hello before = hello_.value_or(hello);
-  const Sampling wanted{.rate_millihz = settings_.rate_millihz.value_or(before.rate_millihz),
-                        .emitter_mode = settings_.emitter_mode.value_or(before.emitter_mode)};
-  if (auto applied = apply_sampling(wanted, *connection, hello); !applied) {
+  if (auto applied = apply_sampling(wanted(hello), *connection, hello); !applied) {
     settings_.once = settings_.once || !hello_;  // it would be refused again
     return applied;
   }
@@ -107,6 +103,22 @@ tl::expected<void, Error> BoardSource::connect() {
   return {};
 }
 
+/// As it is asked to, or as it did before it started anew.
+Sampling BoardSource::wanted(const wire::Hello& hello) const {
+  const wire::Hello before = hello_.value_or(hello);
+  return {.rate_millihz = settings_.rate_millihz.value_or(before.rate_millihz),
+          .emitter_mode = settings_.emitter_mode.value_or(before.emitter_mode)};
+}
+
+/// Has a board that started anew on an open link go on as it was.
+tl::expected<void, Error> BoardSource::settle(wire::Hello hello) {
+  listener_.say(port_name_ + ": the board has started anew");
+  if (auto same = require_same_board(port_name_, hello, *hello_); !same) {
+    return same;
+  }
+  return apply_sampling(wanted(hello), *connection_, hello);
+}
+
 /// Says that the board is there, the first time or again.
 void BoardSource::welcome(const wire::Hello& hello) {
   const std::string serial_number = serial_number_of(hello);
@@ -118,6 +130,12 @@ void BoardSource::welcome(const wire::Hello& hello) {
       listener_.say(fmt::format(
           "{}: the board speaks protocol {}, this program {}: what is not known is skipped",
           port_name_, hello.protocol, wire::kProtocolVersion));
+    }
+    if (!settings_.emitter_mode && hello.emitter_mode != wire::EmitterMode::kSwitched) {
+      listener_.say(
+          fmt::format("{}: the board's emitters are still {}; --emitter switched has it "
+                      "measure the room's light, too",
+                      port_name_, wire::name_of(wire::kEmitterModes, hello.emitter_mode)));
     }
   } else {
     listener_.say(
@@ -143,7 +161,13 @@ tl::expected<ReadResult, Error> BoardSource::read(Sample& sample) {
   const auto frame = connection_->next_frame(kFrameWait);
   if (frame && *frame) {
     heard_at_ = Clock::now();
-    return take(**frame, sample) ? ReadResult::kSample : ReadResult::kNothingYet;
+    const bool is_sample = take(**frame, sample);
+    if (const auto hello = std::exchange(anew_, std::nullopt)) {
+      if (auto settled = settle(*hello); !settled) {
+        return lose(settled.error().message).map(nothing_yet);
+      }
+    }
+    return is_sample ? ReadResult::kSample : ReadResult::kNothingYet;
   }
   if (frame && connection_->ended() && !connection_->port().two_way()) {
     return ReadResult::kEnded;
@@ -183,7 +207,6 @@ bool BoardSource::take(const wire::Frame& frame, Sample& sample) {
       if (const auto message = wire::read_message<wire::SampleMessage>(frame.payload)) {
         sample = wire::sample_of(*message);
         sample.flags |= std::exchange(restarted_, false) ? flag::kRestarted : 0;
-        last_seq_ = sample.seq;
         return true;
       }
       break;
@@ -210,6 +233,9 @@ void BoardSource::take(const wire::Hello& hello) {
   boot_id_ = hello.boot_id;
   firmware_ = wire::characters_of(hello.firmware);
   restarted_ = true;
+  if (connection_ && connection_->hello().boot_id != hello.boot_id) {
+    anew_ = hello;
+  }
   pinged_at_ = Clock::time_point();  // its clock has started anew
   dropped_before_ = 0;
   events_.push_back(boot_event(header(), host_time_now().utc_us));
@@ -258,7 +284,7 @@ RecordingHeader BoardSource::header() const {
 }
 
 std::string BoardSource::place() const {
-  return fmt::format("{}: seq {}", port_name_, last_seq_);
+  return port_name_;
 }
 
 std::vector<std::string> BoardSource::complaints() const {
@@ -273,7 +299,9 @@ std::vector<std::string> BoardSource::complaints() const {
                                      port_name_, dropped_frames_));
   }
   if (times_lost_ > 0) {
-    complaints.push_back(fmt::format("{}: the board was lost {} times", port_name_, times_lost_));
+    complaints.push_back(
+        times_lost_ == 1 ? port_name_ + ": the board was lost once"
+                         : fmt::format("{}: the board was lost {} times", port_name_, times_lost_));
   }
   return complaints;
 }

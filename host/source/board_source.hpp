@@ -18,12 +18,14 @@
 #include "common/wire/device_messages.hpp"
 #include "hal/linux/board_connection.hpp"
 #include "hal/replay/recording_event.hpp"
+#include "host/source/board_sampling.hpp"
 #include "host/source/source.hpp"
 
 namespace penduline {
 
-/// Opens the port of a board, wherever it is now.
-using PortOpener = std::function<tl::expected<std::unique_ptr<BytePort>, Error>()>;
+/// Opens the port of a board, wherever it is now: with `same_device` that of the device which it
+/// opened last, else of any that suits.
+using PortOpener = std::function<tl::expected<std::unique_ptr<BytePort>, Error>(bool same_device)>;
 
 struct BoardSettings {
   bool once = false;  ///< fail instead of waiting for a board, at the start and later
@@ -71,7 +73,9 @@ class BoardSource final : public Source {
 
   tl::expected<void, Error> try_again();
   tl::expected<void, Error> connect();
+  [[nodiscard]] Sampling wanted(const wire::Hello& hello) const;
   void welcome(const wire::Hello& hello);
+  tl::expected<void, Error> settle(wire::Hello hello);
   tl::expected<void, Error> lose(const std::string& reason);
   bool take(const wire::Frame& frame, Sample& sample);
   void take(const wire::Hello& hello);
@@ -88,6 +92,7 @@ class BoardSource final : public Source {
   std::uint32_t boot_id_ = 0;         ///< of the start that it is in
   std::string firmware_;              ///< the same
   bool restarted_ = false;            ///< the next sample is the first after a start
+  std::optional<wire::Hello> anew_;   ///< of a start while it was connected
   Clock::time_point patient_until_;   ///< where `settings_.once`
   std::string port_name_;             ///< of the last connection
   std::string refusal_;               ///< why a board that is there was not taken, said last
@@ -100,7 +105,6 @@ class BoardSource final : public Source {
   std::int64_t ping_sent_us_ = 0;
   std::vector<RecordingEvent> events_;  ///< since the reading before
   bool told_ = false;                   ///< the events, by a reading
-  std::uint64_t last_seq_ = 0;
   std::uint64_t times_lost_ = 0;
   std::uint64_t damaged_frames_ = 0;             ///< of connections that are over
   std::optional<std::uint32_t> dropped_before_;  ///< as the board counts since its start

@@ -30,23 +30,23 @@ class SerialPortFinder {
  public:
   explicit SerialPortFinder(SourceUri uri) : uri_(std::move(uri)) {}
 
-  OpenedPort operator()() {
-    const auto path = find();
+  OpenedPort operator()(bool same_device) {
+    const auto path = find(same_device);
     if (!path) {
       return tl::unexpected(path.error());
     }
     auto port = SerialPort::open(*path, uri_.baud);
-    if (port && !opened_) {
-      if (const auto device = device_at(*path); device && !device->identity.serial_number.empty()) {
-        opened_ = device->identity;
-      }
+    if (port) {
+      const auto device = device_at(*path);
+      opened_ = device && !device->identity.serial_number.empty() ? std::optional(device->identity)
+                                                                  : std::nullopt;
     }
     return port;
   }
 
  private:
-  tl::expected<std::string, Error> find() const {
-    if (opened_) {
+  tl::expected<std::string, Error> find(bool same_device) const {
+    if (same_device && opened_) {
       for (const SerialDevice& device : serial_devices()) {
         if (device.identity == *opened_) {
           return device.path;
@@ -63,14 +63,21 @@ class SerialPortFinder {
   }
 
   SourceUri uri_;
-  std::optional<UsbIdentity> opened_;  ///< of the device that was opened first
+  std::optional<UsbIdentity> opened_;  ///< of the device that was opened last
 };
 
 }  // namespace
 
 PortOpener port_opener(const SourceUri& uri) {
   if (uri.kind == SourceUri::Kind::kUsb) {
-    return [identity = uri.usb] { return UsbPort::open(identity); };
+    return [asked = uri.usb, opened = uri.usb](bool same_device) mutable -> OpenedPort {
+      auto port = UsbPort::open(same_device ? opened : asked);
+      if (!port) {
+        return tl::unexpected(port.error());
+      }
+      opened = (*port)->identity();
+      return std::move(*port);
+    };
   }
   return SerialPortFinder(uri);
 }

@@ -79,7 +79,7 @@ class RandomTest(bench.BenchTest):
         for _ in range(count):
             board = bench.SimulatedBoard()
             try:
-                run.wait_for_rows(len(run.rows()) + 1)
+                run.wait_for_rows(run.count() + 1)
                 time.sleep(moments.uniform(0, 1))
                 bench.unplug()
                 self.assertEqual(board.end(), 0)

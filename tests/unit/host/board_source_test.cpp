@@ -61,7 +61,7 @@ TEST_CASE("What stands before the first Hello is old or noise, and no damage", "
       listen({{.pieces = {"AT+GCAP\r" + std::string(1, '\0') + sample_frame(3) + kHello,
                           sample_frame(7)}}});
   CHECK(seqs_of(heard) == Seqs{7});
-  CHECK(heard.complaints == Lines{"script: the board was lost 1 times"});
+  CHECK(heard.complaints == Lines{"script: the board was lost once"});
 }
 
 TEST_CASE("A board that went and did not stop loses nothing that it kept", "[board]") {
@@ -151,6 +151,26 @@ TEST_CASE("A rate that is asked for is set, and set again after a new start", "[
   CHECK(seqs_of(heard) == Seqs{0, 0});
 }
 
+TEST_CASE("After a new start on a line that stays the board is told its rate again", "[board]") {
+  const std::string again = frame_of(hello_of_boot(2));
+  const Heard heard = listen({{.pieces = {kHello, samples(0, 2), again, samples(0, 1)}}},
+                             {.rate_millihz = 100'000});
+  CHECK(seqs_of(heard) == Seqs{0, 1, 2, 0, 1});
+  CHECK(std::ranges::count(heard.commands, wire::SetRate::kType) == 2);
+  CHECK(heard.said.front() == "script: the board has started anew");
+}
+
+TEST_CASE("A board whose emitters are still as somebody else wanted them says so", "[board]") {
+  wire::Hello lit = hello_of_boot(1);
+  lit.emitter_mode = wire::EmitterMode::kLit;
+  const std::vector<Life> lives = {{.pieces = {frame_of(lit) + sample_frame(0)}}};
+  CHECK(listen(lives).said.front() ==
+        "script: the board's emitters are still lit; --emitter switched has it measure the room's "
+        "light, too");
+  CHECK(listen(lives, {.emitter_mode = wire::EmitterMode::kLit}).said.front() ==
+        "script: gone; waiting for it");
+}
+
 TEST_CASE("A board of another protocol is told and read", "[board]") {
   wire::Hello newer = hello_of_boot(1);
   newer.protocol = 2;
@@ -186,7 +206,7 @@ TEST_CASE("Cut or stalled at any byte, the stream comes whole", "[board]") {
     CHECK(seqs_of(split) == all);
     const Heard stalled = listen({{.pieces = {head, "", "", tail}}}, {.once = true});
     CHECK(seqs_of(stalled) == all);
-    CHECK(stalled.complaints == Lines{"script: the board was lost 1 times"});
+    CHECK(stalled.complaints == Lines{"script: the board was lost once"});
   }
 }
 

@@ -110,7 +110,7 @@ inline Heard listen(std::vector<Life> lives, const BoardSettings& settings = {})
     }
   };
   auto source = BoardSource::open(
-      [&]() -> tl::expected<std::unique_ptr<BytePort>, Error> {
+      [&](bool /*same_device*/) -> tl::expected<std::unique_ptr<BytePort>, Error> {
         over = life == lives.size();
         if (over) {
           return failure("script: over");

@@ -137,7 +137,7 @@ TEST_CASE("A board that is unplugged and back under another number is read on", 
   CHECK(listener.seqs() == Seqs{0, 1, 2});
   CHECK(listener.samples.back().flags == flags);
   REQUIRE(listener.said.size() == 2);
-  CHECK(listener.said[1].starts_with("usb:1209:0001: the board is back after "));
+  CHECK(listener.said[1].starts_with("usb:1209:0001:E6605838831B2C21: the board is back after "));
   CHECK(listener.said[1].ends_with(news));
   CHECK(back.owner(1) == "Penduline");
   listener.source.reset();  // before its boards

@@ -135,32 +135,43 @@ TEST_CASE("What a device says of itself cannot command the terminal", "[serial_d
 TEST_CASE("Where there is no board, auto tells what it saw", "[serial_devices]") {
   MockedBus bus;
   plug_in(bus, kAdapter, "ttyUSB0");
-  const auto port = port_opener(*parse_uri("auto"))();
+  const auto port = port_opener(*parse_uri("auto"))(false);
   REQUIRE(!port);
   CHECK(port.error().message ==
         "found no board: looked for a serial port of the USB device 1209:0001, or of an ST-Link; "
         "USB serial ports seen: /dev/ttyUSB0 (0403:6001 FT232R USB UART)");
 }
 
-TEST_CASE("The board that auto found first is found again under another name", "[serial_devices]") {
+TEST_CASE("The board that auto opened last is found again under another name", "[serial_devices]") {
   MockedBus bus;
   plug_in(bus, kPico, "ttyACM0");
   bus.make_file_of("ttyACM0");
   PortOpener open = port_opener(*parse_uri("auto"));
-  CHECK(open().value()->name() == "/dev/ttyACM0");
+  CHECK(open(false).value()->name() == "/dev/ttyACM0");
   bus.unplug(kPico);
   PluggedDevice other = kNucleo;
   other.identity = {
       .vendor = kPendulineVendor, .product = kPendulineProduct, .serial_number = "E1"};
   plug_in(bus, other, "ttyACM1");
   bus.make_file_of("ttyACM1");
-  const auto absent = open();
+  const auto absent = open(true);
   REQUIRE(!absent);
   CHECK(absent.error().message ==
         "found no serial port of the USB device 1209:0001:E6605838831B2C21");
   plug_in(bus, kPico, "ttyACM2");
   bus.make_file_of("ttyACM2");
-  CHECK(open().value()->name() == "/dev/ttyACM2");
+  CHECK(open(true).value()->name() == "/dev/ttyACM2");
+}
+
+TEST_CASE("What auto opened and was no board is not stuck to", "[serial_devices]") {
+  MockedBus bus;
+  plug_in(bus, kNucleo, "ttyACM0");
+  bus.make_file_of("ttyACM0");
+  PortOpener open = port_opener(*parse_uri("auto"));
+  CHECK(open(false).value()->name() == "/dev/ttyACM0");
+  plug_in(bus, kPico, "ttyACM1");
+  bus.make_file_of("ttyACM1");
+  CHECK(open(false).value()->name() == "/dev/ttyACM1");
 }
 
 TEST_CASE("The boards are listed with what they say, or why they do not", "[devices]") {

@@ -33,7 +33,8 @@ constexpr std::size_t kFewRows = 100;
 std::unique_ptr<QueuedOutput> lines_to(const std::string& path,
                                        std::size_t capacity = EstimateQueue::kCapacity) {
   return std::make_unique<QueuedOutput>(
-      std::make_unique<LineWriter>(TextFile::create(path).value(), EstimateLayout{}), capacity);
+      std::make_unique<LineWriter>(TextFile::create(path).value(), EstimateLayout{}, false),
+      capacity);
 }
 
 /// Hands on rows with these numbers.
