@@ -59,8 +59,13 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   }
   const EstimatorKind kind = options.estimator.kind;
   // Estimates that come all at once, after the last sample, hold nothing up.
-  const auto outputs = open_outputs(options.output, run.live && !is_offline(kind),
-                                    {.rig = rig, .header = header, .estimator = kind});
+  const auto outputs =
+      open_outputs(options.output, run.live && !is_offline(kind),
+                   {.rig = rig,
+                    .header = header,
+                    .estimator = kind,
+                    .has_other_use = !run.recording.path.empty() ||
+                                     (run.lines != nullptr && run.lines->holds_any())});
   if (!outputs) {
     return tl::unexpected(outputs.error());
   }
@@ -81,7 +86,6 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     if (!started) {
       return tl::unexpected(started.error());
     }
-    (*outputs)->may_all_fail();
     recorder = std::move(*started);
     parts.recorder = [&](const Sample& sample) { return recorder->record(sample); };
     parts.note = [&, boot_id = header.boot_id](const RecordingEvent& event) mutable {

@@ -69,8 +69,9 @@ class Opening {
     if (!live_) {
       return std::make_unique<EstimateFile>(std::move(*file), options_.layout);
     }
+    const bool only_use = options_.addresses.size() <= 1 && !subject_.has_other_use;
     return std::make_unique<QueuedOutput>(
-        std::make_unique<LineWriter>(std::move(*file), options_.layout));
+        std::make_unique<LineWriter>(std::move(*file), options_.layout, only_use));
   }
 
   OpenedOutput operator()(const UdpAddress& address) const { return UdpOutput::open(address); }
@@ -168,16 +169,30 @@ void refuse_network_outputs(const OutputOptions& options) {
   }
 }
 
+tl::expected<void, Error> look_up_hosts(const OutputOptions& options) {
+  for (const OutputAddress& address : parsed(options)) {
+    if (const auto* udp = std::get_if<UdpAddress>(&address)) {
+      if (const auto found = UdpOutput::open(*udp); !found) {
+        return tl::unexpected(found.error());
+      }
+    }
+  }
+  return {};
+}
+
 tl::expected<std::unique_ptr<Outputs>, Error> open_outputs(const OutputOptions& options, bool live,
                                                            const OutputSubject& subject) {
   auto outputs = std::make_unique<Outputs>(log_warning);
+  if (subject.has_other_use) {
+    outputs->may_all_fail();
+  }
   const Opening open(options, live, subject);
   for (const OutputAddress& address : parsed(options)) {
     auto output = std::visit(open, address);
     if (!output) {
       return tl::unexpected(output.error());
     }
-    const bool essential = !live || is_standard_output(address);
+    const bool essential = !live || (is_standard_output(address) && !subject.has_other_use);
     outputs->add(std::move(*output), essential ? Need::kEssential : Need::kOptional);
   }
   return outputs;

@@ -31,11 +31,17 @@ void add_output_options(CLI::App& command, OutputOptions& options);
 /// Refuses, as wrong usage, outputs that are for estimates which come at their own pace.
 void refuse_network_outputs(const OutputOptions& options);
 
+/// Looks up the hosts that estimates are sent to, which may take long: before anything waits for
+/// the run. Fails where one is not known.
+[[nodiscard]] tl::expected<void, Error> look_up_hosts(const OutputOptions& options);
+
 /// What is told of a run to those who only get its estimates.
 struct OutputSubject {
   const RigFile& rig;
   const RecordingHeader& header;
   EstimatorKind estimator;
+  /// The run is of use without estimates: it is recorded, or it drives lines.
+  bool has_other_use = false;
 };
 
 /// Opens all outputs. Where samples come `live` each that may block has a thread of its own and

@@ -109,6 +109,9 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
     return log_failure(rig.error());
   }
   require_lines(options.lines, rig->lines, options.estimation.rig_path);
+  if (const auto known = look_up_hosts(options.estimation.output); !known) {
+    return log_failure(known.error());
+  }
   const StopSignal stop;
   std::unique_ptr<SessionLines> lines;
   if (source.is_board() && !is_stored(source)) {

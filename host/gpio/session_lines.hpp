@@ -54,6 +54,8 @@ class SessionLines {
   /// `release` and `trigger` since the last turn.
   std::vector<RecordingEvent> turn(const SessionTurn& turn);
 
+  /// Whether it holds a line, which is to be given back in the end.
+  [[nodiscard]] bool holds_any() const { return reset_ || magnet_ || light_ || trigger_; }
   /// Whether trigger edges may be lost, which was said.
   [[nodiscard]] bool edges_lost() const { return edges_lost_; }
 

@@ -27,8 +27,8 @@ void let_broken_pipe_end_program() {
 
 }  // namespace
 
-LineWriter::LineWriter(TextFile file, EstimateLayout layout)
-    : file_(std::move(file)), layout_(layout) {
+LineWriter::LineWriter(TextFile file, EstimateLayout layout, bool ends_with_reader)
+    : file_(std::move(file)), layout_(layout), ends_with_reader_(ends_with_reader) {
   append_estimate_head(file_.text(), layout_);
 }
 
@@ -52,7 +52,7 @@ void LineWriter::fill(EstimateQueue& queue) {
 }
 
 tl::expected<void, Error> LineWriter::run(EstimateQueue& queue) {
-  if (file_.descriptor() == STDOUT_FILENO) {
+  if (ends_with_reader_ && file_.descriptor() == STDOUT_FILENO) {
     let_broken_pipe_end_program();
   }
   while (!queue.expired()) {

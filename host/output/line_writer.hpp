@@ -13,12 +13,12 @@ namespace penduline {
 
 class LineWriter final : public QueueWriter {
  public:
-  LineWriter(TextFile file, EstimateLayout layout);
+  /// With `ends_with_reader` the program ends where the reader of its standard output has gone, by
+  /// SIGPIPE, as others in a pipeline do, unless that is ignored (as under systemd).
+  LineWriter(TextFile file, EstimateLayout layout, bool ends_with_reader);
 
   [[nodiscard]] std::string name() const override { return file_.name(); }
-  /// Fails where the reader is gone or the file cannot be written; of the standard output a reader
-  /// that is gone ends the program by SIGPIPE, as it does with others in a pipeline, unless that is
-  /// ignored (as under systemd, and by libmosquitto).
+  /// Fails where the reader is gone or the file cannot be written.
   tl::expected<void, Error> run(EstimateQueue& queue) override;
 
  private:
@@ -26,6 +26,7 @@ class LineWriter final : public QueueWriter {
 
   TextFile file_;
   EstimateLayout layout_;
+  bool ends_with_reader_;
   std::uint64_t rows_ = 0;  ///< in the file's text
   std::string next_row_;    ///< what did not fit into that
 };

@@ -94,6 +94,15 @@ class OutputsTest(ProgramTest):
         process.stdout.close()
         self.assertEqual(process.wait(timeout=60), -signal.SIGPIPE)
 
+    def test_a_reader_of_stdout_that_goes_does_not_end_what_is_recorded(self):
+        recording = self.folder / "rec.csv"
+        process = self.start("--rate", 200, "--seconds", 2, "--record", recording, stdout=subprocess.PIPE)
+        process.stdout.readline()
+        process.stdout.close()
+        self.assertEqual(process.wait(timeout=60), 1)
+        self.assertIn("warning: standard output: Broken pipe; this output has ended\n", process.stderr.read())
+        self.assertEqual(len(read_rows(recording)), 400)
+
     def test_where_broken_pipes_are_ignored_it_ends_with_a_message(self):
         process = self.start(stdout=subprocess.PIPE, restore_signals=False)  # Python ignores them
         process.stdout.readline()
