@@ -39,7 +39,7 @@ void refuse_network_outputs(const OutputOptions& options);
 struct OutputSubject {
   const RigFile& rig;
   const RecordingHeader& header;
-  EstimatorKind estimator;
+  EstimatorKind estimator{};
   /// The run is of use without estimates: it is recorded, or it drives lines.
   bool has_other_use = false;
 };
