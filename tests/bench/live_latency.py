@@ -65,8 +65,9 @@ class Rig:
             self.take()
             if (len(self.text), len(self.arrivals)) == before:
                 break
-        said = self.run.process.stderr.read().decode()
-        if self.run.process.wait() != 0 or " 0 lost, " not in said:
+        status = self.run.process.wait()
+        said = "\n".join(self.run.lines_said())
+        if status != 0 or " 0 lost, " not in said:
             print(said, file=sys.stderr)
         with open(self.recording, encoding="utf-8") as file:
             t_us = {int(row["seq"]): int(row["t_us"])

@@ -4,6 +4,7 @@ import os
 import select
 import signal
 import subprocess
+import tempfile
 import time
 
 from program import PROGRAM
@@ -13,8 +14,9 @@ class Run:
     """Started at once; its rows come as dictionaries of text."""
 
     def __init__(self, *options, source, rig):
+        self.said = tempfile.TemporaryFile()  # a pipe that nobody reads would be full some day
         self.process = subprocess.Popen([PROGRAM, "run", source, "--rig", rig, *options],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                        stdout=subprocess.PIPE, stderr=self.said)
         self.output = b""
 
     def wait_for_rows(self, count, seconds=10):
@@ -26,7 +28,7 @@ class Run:
                 raise AssertionError(f"found {self.count()} rows within {seconds} s, not {count}")
             more = os.read(self.process.stdout.fileno(), 65536)
             if not more:
-                raise AssertionError(f"ended early: {self.process.stderr.read().decode()}")
+                raise AssertionError(f"ended early: {' '.join(self.lines_said())}")
             self.output += more
 
     def drain(self):
@@ -48,12 +50,17 @@ class Run:
 
     def end(self, seconds=10):
         """Waits for its end; its exit status and the lines on stderr."""
-        rest, said = self.process.communicate(timeout=seconds)
+        rest, _ = self.process.communicate(timeout=seconds)
         self.output += rest
-        return self.process.returncode, said.decode().splitlines()
+        return self.process.returncode, self.lines_said()
+
+    def lines_said(self):
+        """All lines on stderr so far."""
+        said = self.said.fileno()  # the program writes where the file stands: that is left alone
+        return os.pread(said, os.fstat(said).st_size, 0).decode().splitlines()
 
     def close(self):
         self.process.kill()
         self.process.wait()
         self.process.stdout.close()
-        self.process.stderr.close()
+        self.said.close()
