@@ -39,7 +39,7 @@ class Rig:
 
     def __init__(self, folder, number, rate_hz):
         self.rate_hz = rate_hz
-        self.board = SimBoard(folder / f"port{number}", "--case", "conical")
+        self.board = SimBoard(folder / f"port{number}", "--case", "conical", "--tick-us", "5000")
         self.recording = folder / f"{number}.csv"
         self.run = Run("--rate", str(rate_hz), "--record", self.recording,
                        source=f"serial:{self.board.port}", rig=RIGS / "paper.toml")

@@ -3,7 +3,7 @@
 import time
 import unittest
 
-from live_run import Run
+from live_run import LiveRunTest
 from program import RIGS, ProgramTest, read_rows, run
 from sim_board import WITHOUT_PTS, SimBoard
 
@@ -12,7 +12,7 @@ RESTARTED, DROPOUT = 4, 256
 
 
 @unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
-class BoardTest(ProgramTest):
+class BoardTest(LiveRunTest, ProgramTest):
     def setUp(self):
         super().setUp()
         self.port = self.folder / "port"
@@ -23,15 +23,7 @@ class BoardTest(ProgramTest):
         return board
 
     def start(self, *options):
-        started = Run(*options, source=f"serial:{self.port}", rig=RIG)
-        self.addCleanup(started.close)
-        return started
-
-    def finish(self, started):
-        started.interrupt()
-        status, said = started.end()
-        self.assertEqual(status, 0, said)
-        return said
+        return self.start_run(*options, source=f"serial:{self.port}", rig=RIG)
 
     def wait_for_angles(self, started, since):
         """Waits for a row with angles after row `since`."""

@@ -10,6 +10,23 @@ import time
 from program import PROGRAM
 
 
+class LiveRunTest:
+    """What tests with runs share; to be derived from beside a unittest.TestCase."""
+
+    def start_run(self, *options, source, rig):
+        """A run of which nothing is left behind."""
+        started = Run(*options, source=source, rig=rig)
+        self.addCleanup(started.close)
+        return started
+
+    def finish(self, started):
+        """Ctrl-C; the lines on stderr."""
+        started.interrupt()
+        status, said = started.end()
+        self.assertEqual(status, 0, said)
+        return said
+
+
 class Run:
     """Started at once; its rows come as dictionaries of text."""
 

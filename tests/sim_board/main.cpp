@@ -35,6 +35,7 @@ struct Options {
   std::string store_path;
   std::string link = "pty";
   bool fast = false;
+  std::uint64_t tick_us = 1000;
 };
 
 /// Says when the virtual time may go on, and when it is over.
@@ -132,10 +133,7 @@ tl::expected<Surroundings, Error> make_surroundings(const Options& options,
                        : sim::FileLink(STDIN_FILENO, STDOUT_FILENO),
       .flash = *flash,
       .serial_number = settings.seed};
-  if (!options.fast) {
-    constexpr std::uint64_t kTickOfManyBoardsUs = 5000;
-    surroundings.tick_us = kTickOfManyBoardsUs;
-  }
+  surroundings.tick_us = options.tick_us;
   // In real time two runs are two boots; as fast as possible one seed gives one stream.
   const std::int64_t now_ns = std::chrono::system_clock::now().time_since_epoch().count();
   surroundings.kept.boot_id = static_cast<std::uint32_t>(settings.seed) ^
@@ -174,6 +172,12 @@ void add_options(CLI::App& program, Options& options) {
       ->capture_default_str();
   program.add_flag("--fast", options.fast,
                    "Virtual time as fast as the other end reads, not the real one");
+  program
+      .add_option("--tick-us", options.tick_us,
+                  "How often it looks what has come on its link; many boards look less often")
+      ->check(CLI::Range(100, 50'000).description(""))
+      ->type_name("US")
+      ->capture_default_str();
   program
       .add_option("--store", options.store_path,
                   "A file that keeps what the firmware stores in its flash; else it is forgotten")
