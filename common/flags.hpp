@@ -26,6 +26,8 @@ inline constexpr Flags kOutOfRange = 1U << 12U;
 inline constexpr Flags kFolded = 1U << 13U;
 inline constexpr Flags kIllConditioned = 1U << 14U;
 inline constexpr Flags kNoSolution = 1U << 15U;
+inline constexpr Flags kStray = 1U << 16U;
+inline constexpr Flags kDisturbed = 1U << 17U;
 
 /// Flags that are part of a good measurement: a filter fills, a board starts.
 inline constexpr Flags kOrdinary = kFilling | kRestarted;
@@ -59,6 +61,9 @@ inline constexpr std::array kFlagDescriptions = {
     FlagDescription{flag::kIllConditioned, "ill_conditioned",
                     "the tilt is near one that the sensors cannot tell from its neighbours"},
     FlagDescription{flag::kNoSolution, "no_solution", "no tilt of the disc gives these gaps"},
+    FlagDescription{flag::kStray, "stray", "a gap was too far from what was expected to be used"},
+    FlagDescription{flag::kDisturbed, "disturbed",
+                    "the pendulum does not swing freely: something pushes, holds or stops it"},
 };
 
 }  // namespace penduline

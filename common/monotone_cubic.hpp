@@ -48,8 +48,18 @@ class MonotoneCubic {
     if (x >= x_[count_ - 1]) {
       return y_[count_ - 1] + slope_[count_ - 1] * (x - x_[count_ - 1]);
     }
-    const Scalar* above = std::upper_bound(x_.data() + 1, x_.data() + count_ - 1, x);
-    return value_in(static_cast<std::size_t>(above - x_.data()) - 1, x);
+    return value_in(segment_of(x), x);
+  }
+
+  /// The curve's slope at `x`.
+  [[nodiscard]] Scalar slope(Scalar x) const {
+    if (x <= x_[0]) {
+      return slope_[0];
+    }
+    if (x >= x_[count_ - 1]) {
+      return slope_[count_ - 1];
+    }
+    return slope_in(segment_of(x), x);
   }
 
   /// The x at which the curve is `y`: bisection to the last bit of the segment's cubic.
@@ -74,13 +84,26 @@ class MonotoneCubic {
   [[nodiscard]] Scalar width(std::size_t i) const { return x_[i + 1] - x_[i]; }
   [[nodiscard]] Scalar secant(std::size_t i) const { return (y_[i + 1] - y_[i]) / width(i); }
 
+  /// The segment of an x between the end points.
+  [[nodiscard]] std::size_t segment_of(Scalar x) const {
+    const Scalar* above = std::upper_bound(x_.data() + 1, x_.data() + count_ - 1, x);
+    return static_cast<std::size_t>(above - x_.data()) - 1;
+  }
+
+  [[nodiscard]] Scalar quadratic(std::size_t i) const {
+    return (3 * secant(i) - 2 * slope_[i] - slope_[i + 1]) / width(i);
+  }
+  [[nodiscard]] Scalar cubic(std::size_t i) const {
+    return (slope_[i] + slope_[i + 1] - 2 * secant(i)) / (width(i) * width(i));
+  }
+
   [[nodiscard]] Scalar value_in(std::size_t i, Scalar x) const {
     const Scalar t = x - x_[i];
-    const Scalar h = width(i);
-    const Scalar mean = secant(i);
-    const Scalar quadratic = (3 * mean - 2 * slope_[i] - slope_[i + 1]) / h;
-    const Scalar cubic = (slope_[i] + slope_[i + 1] - 2 * mean) / (h * h);
-    return y_[i] + t * (slope_[i] + t * (quadratic + t * cubic));
+    return y_[i] + t * (slope_[i] + t * (quadratic(i) + t * cubic(i)));
+  }
+  [[nodiscard]] Scalar slope_in(std::size_t i, Scalar x) const {
+    const Scalar t = x - x_[i];
+    return slope_[i] + t * (2 * quadratic(i) + t * 3 * cubic(i));
   }
 
   /// Weighted harmonic mean of the secants on both sides.

@@ -25,6 +25,7 @@ struct LinearResponse {
   [[nodiscard]] std::optional<Scalar> gap_m(Scalar volts) const {
     return gap_at_zero_m + slope_m_per_v * volts;
   }
+  [[nodiscard]] Scalar slope(Scalar /*volts*/) const { return slope_m_per_v; }
   [[nodiscard]] Scalar volts(Scalar gap_m) const { return (gap_m - gap_at_zero_m) / slope_m_per_v; }
 };
 
@@ -34,6 +35,7 @@ struct TableResponse {
   MonotoneCubic<Scalar> gap_over_volts;
 
   [[nodiscard]] std::optional<Scalar> gap_m(Scalar volts) const { return gap_over_volts(volts); }
+  [[nodiscard]] Scalar slope(Scalar volts) const { return gap_over_volts.slope(volts); }
   [[nodiscard]] Scalar volts(Scalar gap_m) const { return gap_over_volts.inverse(gap_m); }
 };
 
@@ -49,6 +51,9 @@ struct InverseSquareResponse {
       return std::nullopt;
     }
     return std::sqrt(a_v_m2 / (volts - c_v)) - b_m;
+  }
+  [[nodiscard]] Scalar slope(Scalar volts) const {
+    return -std::sqrt(a_v_m2 / (volts - c_v)) / (2 * (volts - c_v));
   }
   [[nodiscard]] Scalar volts(Scalar gap_m) const {
     return a_v_m2 / ((gap_m + b_m) * (gap_m + b_m)) + c_v;
@@ -66,6 +71,14 @@ struct PolynomialResponse {
   Scalar volts_max = 0;
 
   [[nodiscard]] std::optional<Scalar> gap_m(Scalar volts) const { return value(volts); }
+
+  [[nodiscard]] Scalar slope(Scalar volts) const {
+    Scalar sum = 0;
+    for (std::size_t i = count; i-- > 1;) {
+      sum = sum * volts + static_cast<Scalar>(i) * coefficient[i];
+    }
+    return sum;
+  }
 
   /// The volts in [volts_min, volts_max] that give the gap, or the nearer end where none do.
   [[nodiscard]] Scalar volts(Scalar gap_m) const {
@@ -133,6 +146,11 @@ struct Response {
       reading.flags |= flag::kFolded;
     }
     return reading;
+  }
+
+  /// How fast the gap changes with the signal, in metres per volt, where there is a gap for it.
+  [[nodiscard]] Scalar slope_m_per_v(Scalar volts) const {
+    return std::visit([&](const auto& curve) { return curve.slope(volts); }, model);
   }
 
   /// The signal for a gap within the range, in volts.

@@ -7,6 +7,7 @@
 
 #include "common/disc_plane.hpp"
 #include "common/dynamics.hpp"
+#include "common/filter_trust.hpp"
 #include "common/fir.hpp"
 #include "common/response.hpp"
 #include "common/sample.hpp"
@@ -20,6 +21,8 @@ struct Rig {
   SensorLayout<Scalar> layout;
   std::array<Response<Scalar>, kMaxSensors> responses{};  ///< in the layout's order
   std::optional<FilterDesign<Scalar>> filter;             ///< none: `default_filter`
+  std::array<SensorNoise<Scalar>, kMaxSensors> noise{};   ///< in the layout's order
+  FilterTrust<Scalar> trust{};                            ///< of the Kalman filter
 };
 
 }  // namespace penduline

@@ -133,6 +133,7 @@ void add_rig_option(CLI::App& command, std::string& path) {
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options) {
   const std::map<std::string, EstimatorKind> estimators{{"gn", EstimatorKind::kGaussNewton},
+                                                        {"ekf", EstimatorKind::kKalman},
                                                         {"paper", EstimatorKind::kPaper}};
   add_rig_option(command, options.rig_path);
   command

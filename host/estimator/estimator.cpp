@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The streaming estimator `gn`, and the choice between estimators.
+// The streaming estimators, and the choice between estimators.
 #include "host/estimator/estimator.hpp"
 
 #include <fmt/format.h>
 
 #include "common/pipeline.hpp"
+#include "common/swing_tracker.hpp"
 #include "host/estimator/paper_estimator.hpp"
 
 namespace penduline {
 namespace {
 
-/// The pipeline of `common`, as it runs on the board.
-class GaussNewtonEstimator final : public Estimator {
+/// One that answers each sample at once: `Pipeline` or `SwingTracker`, as on the board.
+template <class Core>
+class StreamingEstimator final : public Estimator {
  public:
-  GaussNewtonEstimator(const Rig<double>& rig, const Acquisition<double>& acquisition)
-      : pipeline_(rig, acquisition) {}
+  StreamingEstimator(const Rig<double>& rig, const Acquisition<double>& acquisition)
+      : core_(rig, acquisition) {}
 
   tl::expected<void, Error> take(const Sample& sample, EstimateSink& sink) override {
-    return sink.take(pipeline_.update(sample));
+    return sink.take(core_.update(sample));
   }
 
   tl::expected<void, Error> finish(EstimateSink& /*sink*/) override { return {}; }
 
  private:
-  Pipeline<double> pipeline_;
+  Core core_;
 };
 
 }  // namespace
@@ -35,10 +37,15 @@ tl::expected<std::unique_ptr<Estimator>, Error> make_estimator(
     return failure(fmt::format("the rig has {} sensors, the samples have {}", rig.layout.count,
                                acquisition.sensor_count));
   }
-  if (options.kind == EstimatorKind::kPaper) {
-    return PaperEstimator::make(rig, acquisition, options.align);
+  switch (options.kind) {
+    case EstimatorKind::kPaper:
+      return PaperEstimator::make(rig, acquisition, options.align);
+    case EstimatorKind::kGaussNewton:
+      break;
+    case EstimatorKind::kKalman:
+      return std::make_unique<StreamingEstimator<SwingTracker<double>>>(rig, acquisition);
   }
-  return std::make_unique<GaussNewtonEstimator>(rig, acquisition);
+  return std::make_unique<StreamingEstimator<Pipeline<double>>>(rig, acquisition);
 }
 
 }  // namespace penduline

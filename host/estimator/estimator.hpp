@@ -27,11 +27,19 @@ class Estimator {
   virtual tl::expected<void, Error> finish(EstimateSink& sink) = 0;
 };
 
-enum class EstimatorKind { kPaper, kGaussNewton };
+enum class EstimatorKind { kPaper, kGaussNewton, kKalman };
 
 /// What the command line calls it.
 [[nodiscard]] constexpr std::string_view estimator_name(EstimatorKind kind) {
-  return kind == EstimatorKind::kPaper ? "paper" : "gn";
+  switch (kind) {
+    case EstimatorKind::kPaper:
+      return "paper";
+    case EstimatorKind::kGaussNewton:
+      return "gn";
+    case EstimatorKind::kKalman:
+      break;
+  }
+  return "ekf";
 }
 
 /// Whether all its estimates come after the last sample.

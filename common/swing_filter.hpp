@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// An extended Kalman filter on the pendulum's own dynamics: its state, its algebra.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include "common/disc_plane.hpp"
+#include "common/dynamics.hpp"
+#include "common/filter_trust.hpp"
+#include "common/swing_step.hpp"
+
+namespace penduline {
+
+/// A gap as a sensor has read it.
+template <class Scalar>
+struct GapMeasurement {
+  std::size_t sensor = 0;  ///< in the layout's order
+  Scalar gap_m = 0;
+  Scalar variance_m2 = 0;
+};
+
+/// State theta1, theta2, omega1, omega2, ln(length / nominal length), damping, one offset a sensor.
+template <class Scalar>
+class SwingFilter {
+ public:
+  static constexpr std::size_t kMotion = 4;
+  static constexpr std::size_t kLength = 4;
+  static constexpr std::size_t kDamping = 5;
+  static constexpr std::size_t kOffsets = 6;
+  static constexpr std::size_t kMostStates = kOffsets + kMaxSensors;
+  using State = std::array<Scalar, kMostStates>;
+
+  SwingFilter(const SensorLayout<Scalar>& layout, const Pendulum<Scalar>& pendulum,
+              const FilterTrust<Scalar>& trust)
+      : layout_(layout), pendulum_(pendulum), trust_(trust), states_(kOffsets + layout.count) {}
+
+  /// Begins at given angles, all else as it was told: rates 0 within `omega_sigma_rad_s`.
+  void begin(const Angles<Scalar>& angles, Scalar theta_sigma_rad, Scalar omega_sigma_rad_s) {
+    state_ = {angles.theta1_rad, angles.theta2_rad};
+    state_[kDamping] = pendulum_.damping_per_s;
+    for (auto& row : covariance_) {
+      row.fill(0);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      covariance_[i][i] = theta_sigma_rad * theta_sigma_rad;
+      covariance_[2 + i][2 + i] = omega_sigma_rad_s * omega_sigma_rad_s;
+    }
+    covariance_[kLength][kLength] = trust_.length_share * trust_.length_share;
+    covariance_[kDamping][kDamping] = trust_.damping_per_s * trust_.damping_per_s;
+    for (std::size_t i = kOffsets; i < states_; ++i) {
+      covariance_[i][i] = trust_.offset_m * trust_.offset_m;
+    }
+  }
+
+  /// Goes on in time by `seconds`; `acceleration` is the noise that moves the pendulum, as in
+  /// FilterTrust. The length changes as exp of its state.
+  void predict(Scalar seconds, Scalar acceleration) {
+    const SwingVector<Scalar> motion(state_[0], state_[1], state_[2], state_[3]);
+    const Scalar stiffness = stiffness_1_s2();
+    const MotionStep<Scalar> step =
+        swing_on(motion, {.stiffness_1_s2 = stiffness, .damping_per_s = state_[kDamping]}, seconds);
+    for (std::size_t i = 0; i < kMotion; ++i) {
+      state_[i] = step.motion[static_cast<Eigen::Index>(i)];
+    }
+    transform(step.jacobian, stiffness);
+    const Scalar power = acceleration * acceleration * seconds;
+    for (std::size_t i = 0; i < 2; ++i) {
+      covariance_[i][i] += power * seconds * seconds / 3;
+      covariance_[i][i + 2] += power * seconds / 2;
+      covariance_[i + 2][i] = covariance_[i][i + 2];
+      covariance_[i + 2][i + 2] += power;
+    }
+    covariance_[kLength][kLength] += trust_.length_walk_s05 * trust_.length_walk_s05 * seconds;
+    covariance_[kDamping][kDamping] +=
+        trust_.damping_walk_per_s15 * trust_.damping_walk_per_s15 * seconds;
+    for (std::size_t i = kOffsets; i < states_; ++i) {
+      covariance_[i][i] += trust_.offset_walk_m_s05 * trust_.offset_walk_m_s05 * seconds;
+    }
+  }
+
+  /// What a measurement is beside what was expected of it.
+  struct Innovation {
+    Scalar misfit_m = 0;
+    Scalar variance_m2 = 0;
+    /// 1 on average where all is as the filter believes.
+    [[nodiscard]] Scalar normalized_square() const { return misfit_m * misfit_m / variance_m2; }
+  };
+  [[nodiscard]] Innovation innovation(const GapMeasurement<Scalar>& measured) const {
+    const Expected expected = expect(state_, measured.sensor);
+    const std::array<Scalar, kMostStates> spread = spread_of(expected, measured.sensor);
+    return {.misfit_m = measured.gap_m - expected.gap_m,
+            .variance_m2 = along(expected, measured.sensor, spread) + measured.variance_m2};
+  }
+
+  /// Takes a measurement; linearized anew, three times at the most, where the curvature on the way
+  /// is a tenth of the noise. With `motion_only` what is learned of the pendulum stays as it is.
+  void update(const GapMeasurement<Scalar>& measured, bool motion_only) {
+    constexpr int kMostRounds = 3;
+    const State before = state_;
+    const std::size_t learned_from = motion_only ? kMotion : states_;
+    Expected expected = expect(before, measured.sensor);
+    for (int round = 1;; ++round) {
+      const std::array<Scalar, kMostStates> spread = spread_of(expected, measured.sensor);
+      const Scalar variance = along(expected, measured.sensor, spread) + measured.variance_m2;
+      Scalar misfit = measured.gap_m - expected.gap_m;
+      misfit -= along(expected, measured.sensor, difference(before, state_));
+      std::array<Scalar, kMostStates> gain{};
+      for (std::size_t i = 0; i < learned_from; ++i) {
+        gain[i] = spread[i] / variance;
+      }
+      const State last = state_;
+      for (std::size_t i = 0; i < states_; ++i) {
+        state_[i] = before[i] + gain[i] * misfit;
+      }
+      const Expected next = expect(state_, measured.sensor);
+      const Scalar bend =
+          next.gap_m - expected.gap_m - along(expected, measured.sensor, difference(state_, last));
+      if (round == kMostRounds || 100 * bend * bend < measured.variance_m2) {
+        narrow(expected, measured, spread, gain);
+        return;
+      }
+      expected = next;
+    }
+  }
+
+  /// Says that the pendulum was moved from outside: what is known of its motion is less now.
+  void loosen(Scalar theta_sigma_rad, Scalar omega_sigma_rad_s) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      covariance_[i][i] += theta_sigma_rad * theta_sigma_rad;
+      covariance_[2 + i][2 + i] += omega_sigma_rad_s * omega_sigma_rad_s;
+    }
+  }
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] Scalar variance(std::size_t i) const { return covariance_[i][i]; }
+  [[nodiscard]] Scalar covariance(std::size_t i, std::size_t j) const { return covariance_[i][j]; }
+  [[nodiscard]] std::size_t states() const { return states_; }
+  [[nodiscard]] Scalar length_m() const { return pendulum_.length_m * std::exp(state_[kLength]); }
+  [[nodiscard]] Scalar gap_m(std::size_t sensor) const { return expect(state_, sensor).gap_m; }
+
+ private:
+  /// A gap and its derivative by the angles; that by the sensor's own offset is 1.
+  struct Expected {
+    Scalar gap_m;
+    Scalar by_theta1;
+    Scalar by_theta2;
+  };
+
+  [[nodiscard]] Scalar stiffness_1_s2() const { return pendulum_.gravity_m_s2 / length_m(); }
+
+  [[nodiscard]] Expected expect(const State& state, std::size_t sensor) const {
+    const Angles<Scalar> angles{.theta1_rad = state[0], .theta2_rad = state[1]};
+    const Slopes<Scalar> slopes = slopes_of(angles);
+    const DiscPlane<Scalar> plane(slopes);
+    const Vector3<Scalar>& face = layout_.position_m[sensor];
+    const Vector2<Scalar> gradient =
+        plane.rise_gradient_m(face.x(), face.y(), layout_.disc_offset_m);
+    // Of eq. 7: b = tan(theta1), and a = -tan(theta2) sqrt(1 + b^2).
+    const Scalar secant1 = 1 + slopes.b * slopes.b;
+    const Scalar a_by_theta2 = -(secant1 + slopes.a * slopes.a) / std::sqrt(secant1);
+    return {.gap_m = plane.gap_m(layout_, sensor) + state[kOffsets + sensor],
+            .by_theta1 = -(gradient.x() * slopes.a * slopes.b + gradient.y() * secant1),
+            .by_theta2 = -gradient.x() * a_by_theta2};
+  }
+
+  [[nodiscard]] static State difference(const State& a, const State& b) {
+    State result{};
+    std::ranges::transform(a, b, result.begin(), std::minus<Scalar>());
+    return result;
+  }
+
+  /// The derivative of an expected gap, times a vector.
+  [[nodiscard]] static Scalar along(const Expected& expected, std::size_t sensor,
+                                    const std::array<Scalar, kMostStates>& vector) {
+    return expected.by_theta1 * vector[0] + expected.by_theta2 * vector[1] +
+           vector[kOffsets + sensor];
+  }
+
+  /// The covariance times the derivative of an expected gap.
+  [[nodiscard]] std::array<Scalar, kMostStates> spread_of(const Expected& expected,
+                                                          std::size_t sensor) const {
+    std::array<Scalar, kMostStates> spread{};
+    for (std::size_t i = 0; i < states_; ++i) {
+      spread[i] = along(expected, sensor, covariance_[i]);
+    }
+    return spread;
+  }
+
+  /// Covariance after a step of the motion: F P F^T, F the identity but for the motion's rows.
+  void transform(const MotionJacobian<Scalar>& jacobian, Scalar stiffness) {
+    std::array<std::array<Scalar, kOffsets>, kMotion> by{};
+    for (std::size_t i = 0; i < kMotion; ++i) {
+      for (std::size_t j = 0; j < kOffsets; ++j) {
+        by[i][j] = jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+      by[i][kLength] *= -stiffness;  // d(g/l) / d(ln l)
+    }
+    std::array<std::array<Scalar, kMostStates>, kMotion> half{};
+    for (std::size_t i = 0; i < kMotion; ++i) {
+      for (std::size_t j = 0; j < states_; ++j) {
+        for (std::size_t k = 0; k < kOffsets; ++k) {
+          half[i][j] += by[i][k] * covariance_[k][j];
+        }
+      }
+    }
+    for (std::size_t i = 0; i < kMotion; ++i) {
+      for (std::size_t j = kMotion; j < states_; ++j) {
+        covariance_[i][j] = covariance_[j][i] = half[i][j];
+      }
+      for (std::size_t j = 0; j <= i; ++j) {
+        Scalar sum = 0;
+        for (std::size_t k = 0; k < kOffsets; ++k) {
+          sum += half[i][k] * by[j][k];
+        }
+        covariance_[i][j] = covariance_[j][i] = sum;
+      }
+    }
+  }
+
+  /// Covariance after a measurement in Joseph's form, right for any gain and never negative:
+  /// (I - K H) P (I - K H)^T + K R K^T.
+  void narrow(const Expected& expected, const GapMeasurement<Scalar>& measured,
+              const std::array<Scalar, kMostStates>& spread,
+              const std::array<Scalar, kMostStates>& gain) {
+    for (std::size_t i = 0; i < states_; ++i) {
+      for (std::size_t j = 0; j < states_; ++j) {
+        covariance_[i][j] -= gain[i] * spread[j];
+      }
+    }
+    const std::array<Scalar, kMostStates> rest = spread_of(expected, measured.sensor);
+    for (std::size_t i = 0; i < states_; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Scalar value =
+            covariance_[i][j] + (gain[i] * measured.variance_m2 - rest[i]) * gain[j];
+        covariance_[i][j] = covariance_[j][i] = value;
+      }
+    }
+  }
+
+  SensorLayout<Scalar> layout_;
+  Pendulum<Scalar> pendulum_;
+  FilterTrust<Scalar> trust_;
+  std::size_t states_;
+  State state_{};
+  std::array<std::array<Scalar, kMostStates>, kMostStates> covariance_{};
+};
+
+}  // namespace penduline
