@@ -4,7 +4,7 @@
 BUILD_PACKAGES=(
   g++ cmake ninja-build ccache libeigen3-dev libboost-dev libfmt-dev libspdlog-dev
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
-  libusb-1.0-0-dev libudev-dev libgpiod-dev libmosquitto-dev libsystemd-dev pkgconf
+  libusb-1.0-0-dev libudev-dev libgpiod-dev libmosquitto-dev libsystemd-dev libnlopt-cxx-dev pkgconf
   catch2 librapidcheck-dev libumockdev-dev umockdev python3)
 
 # What the boards' firmware is built with.

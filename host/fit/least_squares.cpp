@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// NLopt for the search, Gauss-Newton for the last digits, a singular value decomposition for what
+// is known.
+#include "host/fit/least_squares.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+
+namespace penduline {
+namespace {
+
+/// The problem in parameters divided by their scales.
+class ScaledProblem {
+ public:
+  ScaledProblem(const std::vector<FitParameter>& parameters, std::size_t residual_count,
+                const FitResiduals& residuals)
+      : parameters_(parameters),
+        count_(static_cast<Eigen::Index>(residual_count)),
+        residuals_(residuals),
+        scales_(static_cast<Eigen::Index>(parameters.size())) {
+    std::ranges::transform(parameters, scales_.begin(), &FitParameter::scale);
+  }
+
+  [[nodiscard]] const Eigen::VectorXd& scales() const { return scales_; }
+  [[nodiscard]] Eigen::VectorXd of_each(double FitParameter::*member) const {
+    Eigen::VectorXd values(scales_.size());
+    std::ranges::transform(parameters_, values.begin(), member);
+    return values.cwiseQuotient(scales_);
+  }
+
+  [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& scaled) const {
+    Eigen::VectorXd result(count_);
+    residuals_(scaled.cwiseProduct(scales_), result);
+    return result;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& scaled) const {
+    constexpr double kStep = 1e-4;
+    Eigen::MatrixXd result(count_, scaled.size());
+    Eigen::VectorXd moved = scaled;
+    for (Eigen::Index i = 0; i < scaled.size(); ++i) {
+      moved[i] = scaled[i] + kStep;
+      result.col(i) = residuals(moved);
+      moved[i] = scaled[i] - kStep;
+      result.col(i) -= residuals(moved);
+      moved[i] = scaled[i];
+    }
+    return result / (2 * kStep);
+  }
+
+ private:
+  const std::vector<FitParameter>& parameters_;
+  Eigen::Index count_;
+  const FitResiduals& residuals_;
+  Eigen::VectorXd scales_;
+};
+
+/// Half the sum of squares and its gradient, as NLopt asks for them.
+double cost(unsigned count, const double* scaled, double* gradient, void* data) {
+  const auto& problem = *static_cast<const ScaledProblem*>(data);
+  const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(scaled, count);
+  const Eigen::VectorXd residuals = problem.residuals(at);
+  if (gradient != nullptr) {
+    Eigen::Map<Eigen::VectorXd>(gradient, count) = problem.jacobian(at).transpose() * residuals;
+  }
+  const double sum = residuals.squaredNorm() / 2;
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+}
+
+/// Near the minimum; where NLopt gives up for its rounding errors, as near as it came.
+Eigen::VectorXd search(const ScaledProblem& problem) {
+  const Eigen::VectorXd start = problem.of_each(&FitParameter::start);
+  const auto vector_of = [](const Eigen::VectorXd& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  nlopt::opt optimizer(nlopt::LD_SLSQP, static_cast<unsigned>(start.size()));
+  optimizer.set_lower_bounds(vector_of(problem.of_each(&FitParameter::low)));
+  optimizer.set_upper_bounds(vector_of(problem.of_each(&FitParameter::high)));
+  optimizer.set_min_objective(cost, const_cast<ScaledProblem*>(&problem));
+  optimizer.set_ftol_rel(1e-9);
+  optimizer.set_maxeval(500);
+  std::vector<double> at = vector_of(start);
+  double least = 0;
+  try {
+    optimizer.optimize(at, least);
+  } catch (const nlopt::roundoff_limited&) {
+    // `at` is the best so far.
+  }
+  return Eigen::Map<const Eigen::VectorXd>(at.data(), start.size());
+}
+
+/// The Jacobian's decomposition, with what a parameter at its bound cannot do left out.
+struct Linearized {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+};
+
+Linearized linearize(const ScaledProblem& problem, const Eigen::VectorXd& at,
+                     const std::vector<std::size_t>& held) {
+  Linearized result{
+      .residuals = problem.residuals(at), .jacobian = problem.jacobian(at), .svd = {}};
+  for (const std::size_t i : held) {
+    result.jacobian.col(static_cast<Eigen::Index>(i)).setZero();
+  }
+  result.svd.compute(result.jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return result;
+}
+
+std::vector<std::size_t> held_at_bounds(const ScaledProblem& problem, const Eigen::VectorXd& at) {
+  constexpr double kNear = 1e-9;
+  const Eigen::VectorXd low = problem.of_each(&FitParameter::low);
+  const Eigen::VectorXd high = problem.of_each(&FitParameter::high);
+  std::vector<std::size_t> held;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    if (at[i] - low[i] < kNear || high[i] - at[i] < kNear) {
+      held.push_back(static_cast<std::size_t>(i));
+    }
+  }
+  return held;
+}
+
+/// Inverse of J^T J. A direction that no residual sees gets a variance beyond all scales.
+Eigen::MatrixXd inverse_normal(const Linearized& at) {
+  constexpr double kBlind = 1e-12;
+  const Eigen::VectorXd& singular = at.svd.singularValues();
+  const double least = std::max(singular[0], 1.0) * kBlind;
+  const Eigen::VectorXd weights = singular.cwiseMax(least).cwiseInverse().cwiseAbs2();
+  return at.svd.matrixV() * weights.asDiagonal() * at.svd.matrixV().transpose();
+}
+
+/// Goes downhill by Gauss-Newton steps, shortened where they overshoot, until a step is nothing
+/// beside the parameters' sigmas. False where it cannot.
+bool polish(const ScaledProblem& problem, const std::vector<std::size_t>& held, Eigen::VectorXd& at,
+            Linearized& here) {
+  constexpr int kMostSteps = 50;
+  constexpr double kNothing = 1e-3;
+  const Eigen::VectorXd low = problem.of_each(&FitParameter::low);
+  const Eigen::VectorXd high = problem.of_each(&FitParameter::high);
+  for (int i = 0; i < kMostSteps; ++i) {
+    here = linearize(problem, at, held);
+    const Eigen::VectorXd step = here.svd.solve(here.residuals);
+    // In residuals' standard deviations: what the step would still gain.
+    if ((here.jacobian * step).norm() <
+        kNothing * std::max(1.0, here.residuals.norm() / std::sqrt(here.residuals.size()))) {
+      return true;
+    }
+    double share = 1;
+    const auto moved = [&] { return (at - share * step).cwiseMax(low).cwiseMin(high).eval(); };
+    while (share > 1e-6 &&
+           !(problem.residuals(moved()).squaredNorm() < here.residuals.squaredNorm())) {
+      share /= 4;
+    }
+    if (share <= 1e-6) {
+      // No way down is left: the rounding of the residuals is all there is.
+      return (here.jacobian * step).norm() < 1e-2 * here.residuals.norm();
+    }
+    at = moved();
+  }
+  return false;
+}
+
+}  // namespace
+
+double Fit::sigma(std::size_t parameter) const {
+  const auto i = static_cast<Eigen::Index>(parameter);
+  return std::sqrt(covariance(i, i));
+}
+
+tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& parameters,
+                                           std::size_t residual_count,
+                                           const FitResiduals& residuals) {
+  if (residual_count < parameters.size()) {
+    return failure(fmt::format("found {} measurements for {} unknowns, expected at least as many",
+                               residual_count, parameters.size()));
+  }
+  const ScaledProblem problem(parameters, residual_count, residuals);
+  if (!problem.residuals(problem.of_each(&FitParameter::start)).allFinite()) {
+    return failure("the fit's first guess has no answer");
+  }
+  Eigen::VectorXd at = search(problem);
+  Fit fit;
+  fit.at_bound = held_at_bounds(problem, at);
+  Linearized here;
+  if (!polish(problem, fit.at_bound, at, here)) {
+    return failure("the fit found no minimum: the model does not describe these data");
+  }
+  fit.residuals = here.residuals;
+  const auto freedom = std::max<std::size_t>(residual_count - parameters.size(), 1);
+  fit.scatter = here.residuals.norm() / std::sqrt(static_cast<double>(freedom));
+  fit.values = at.cwiseProduct(problem.scales());
+  fit.covariance = problem.scales().asDiagonal() * inverse_normal(here) *
+                   problem.scales().asDiagonal() * (fit.scatter * fit.scatter);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const bool held = std::ranges::find(fit.at_bound, i) != fit.at_bound.end();
+    if (!held && !(fit.sigma(i) <= parameters[i].coarsest_sigma)) {
+      fit.undetermined.push_back(i);
+    }
+  }
+  return fit;
+}
+
+}  // namespace penduline
