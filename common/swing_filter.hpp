@@ -11,17 +11,10 @@
 #include "common/disc_plane.hpp"
 #include "common/dynamics.hpp"
 #include "common/filter_trust.hpp"
+#include "common/gap_measurement.hpp"
 #include "common/swing_step.hpp"
 
 namespace penduline {
-
-/// A gap as a sensor has read it.
-template <class Scalar>
-struct GapMeasurement {
-  std::size_t sensor = 0;  ///< in the layout's order
-  Scalar gap_m = 0;
-  Scalar variance_m2 = 0;
-};
 
 /// State theta1, theta2, omega1, omega2, ln(length / nominal length), damping, one offset a sensor.
 template <class Scalar>
@@ -33,6 +26,9 @@ class SwingFilter {
   static constexpr std::size_t kOffsets = 6;
   static constexpr std::size_t kMostStates = kOffsets + kMaxSensors;
   using State = std::array<Scalar, kMostStates>;
+  /// Derivative of the motion after a step by motion, length and damping before it. What is not
+  /// motion stays as it is.
+  using Transition = std::array<std::array<Scalar, kOffsets>, kMotion>;
 
   SwingFilter(const SensorLayout<Scalar>& layout, const Pendulum<Scalar>& pendulum,
               const FilterTrust<Scalar>& trust)
@@ -56,9 +52,9 @@ class SwingFilter {
     }
   }
 
-  /// Goes on in time by `seconds`; `acceleration` is the noise that moves the pendulum, as in
-  /// FilterTrust. The length changes as exp of its state.
-  void predict(Scalar seconds, Scalar acceleration) {
+  /// Goes on in time by `seconds`; `acceleration` and `damping_walk` are the noises that move the
+  /// pendulum and change its damping, as in FilterTrust. The length changes as exp of its state.
+  Transition predict(Scalar seconds, Scalar acceleration, Scalar damping_walk) {
     const SwingVector<Scalar> motion(state_[0], state_[1], state_[2], state_[3]);
     const Scalar stiffness = stiffness_1_s2();
     const MotionStep<Scalar> step =
@@ -66,7 +62,8 @@ class SwingFilter {
     for (std::size_t i = 0; i < kMotion; ++i) {
       state_[i] = step.motion[static_cast<Eigen::Index>(i)];
     }
-    transform(step.jacobian, stiffness);
+    const Transition transition = transition_of(step.jacobian, stiffness);
+    transform(transition);
     const Scalar power = acceleration * acceleration * seconds;
     for (std::size_t i = 0; i < 2; ++i) {
       covariance_[i][i] += power * seconds * seconds / 3;
@@ -75,11 +72,11 @@ class SwingFilter {
       covariance_[i + 2][i + 2] += power;
     }
     covariance_[kLength][kLength] += trust_.length_walk_s05 * trust_.length_walk_s05 * seconds;
-    covariance_[kDamping][kDamping] +=
-        trust_.damping_walk_per_s15 * trust_.damping_walk_per_s15 * seconds;
+    covariance_[kDamping][kDamping] += damping_walk * damping_walk * seconds;
     for (std::size_t i = kOffsets; i < states_; ++i) {
       covariance_[i][i] += trust_.offset_walk_m_s05 * trust_.offset_walk_m_s05 * seconds;
     }
+    return transition;
   }
 
   /// What a measurement is beside what was expected of it.
@@ -140,7 +137,6 @@ class SwingFilter {
   [[nodiscard]] Scalar covariance(std::size_t i, std::size_t j) const { return covariance_[i][j]; }
   [[nodiscard]] std::size_t states() const { return states_; }
   [[nodiscard]] Scalar length_m() const { return pendulum_.length_m * std::exp(state_[kLength]); }
-  [[nodiscard]] Scalar gap_m(std::size_t sensor) const { return expect(state_, sensor).gap_m; }
 
  private:
   /// A gap and its derivative by the angles; that by the sensor's own offset is 1.
@@ -190,15 +186,20 @@ class SwingFilter {
     return spread;
   }
 
-  /// Covariance after a step of the motion: F P F^T, F the identity but for the motion's rows.
-  void transform(const MotionJacobian<Scalar>& jacobian, Scalar stiffness) {
-    std::array<std::array<Scalar, kOffsets>, kMotion> by{};
+  [[nodiscard]] static Transition transition_of(const MotionJacobian<Scalar>& jacobian,
+                                                Scalar stiffness) {
+    Transition by{};
     for (std::size_t i = 0; i < kMotion; ++i) {
       for (std::size_t j = 0; j < kOffsets; ++j) {
         by[i][j] = jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
       by[i][kLength] *= -stiffness;  // d(g/l) / d(ln l)
     }
+    return by;
+  }
+
+  /// Covariance after a step of the motion: F P F^T, F the identity but for the motion's rows.
+  void transform(const Transition& by) {
     std::array<std::array<Scalar, kMostStates>, kMotion> half{};
     for (std::size_t i = 0; i < kMotion; ++i) {
       for (std::size_t j = 0; j < states_; ++j) {

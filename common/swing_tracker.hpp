@@ -10,16 +10,24 @@
 #include <optional>
 
 #include "common/continuity.hpp"
-#include "common/distrust.hpp"
 #include "common/estimate.hpp"
 #include "common/flags.hpp"
+#include "common/gap_measurement.hpp"
 #include "common/gauss_newton.hpp"
 #include "common/innovation_watch.hpp"
+#include "common/motion_noise.hpp"
 #include "common/rig.hpp"
 #include "common/sample.hpp"
+#include "common/swing_estimate.hpp"
 #include "common/swing_filter.hpp"
 
 namespace penduline {
+
+/// What sees a tracker's filter between prediction and measurements: nobody, but for a smoother.
+struct NoWitness {
+  template <class Transition, class Filter>
+  void predicted(const Transition& /*transition*/, const Filter& /*filter*/) {}
+};
 
 /// Turns samples into estimates, one for one, without heap, clock or I/O, as Pipeline does. Each is
 /// of its own sample's moment.
@@ -32,23 +40,28 @@ class SwingTracker {
         acquisition_(acquisition),
         inverse_(rig.layout),
         filter_(rig.layout, rig.pendulum, rig.trust),
-        continuity_(acquisition.longest_step_us()) {}
+        continuity_(acquisition.longest_step_us()),
+        noise_(rig.trust.acceleration_rad_s15) {}
 
-  Estimate<Scalar> update(const Sample& sample) {
+  /// Takes the next sample and returns its estimate. `witness` sees the filter on the way.
+  template <class Witness = NoWitness>
+  Estimate<Scalar> update(const Sample& sample, Witness&& witness = {}) {
     const Continuity::Verdict verdict = continuity_.follow(sample);
     Estimate<Scalar> estimate{
         .t_us = sample.t_us, .seq = sample.seq, .flags = sample.flags | verdict.flags};
-    const Measurements measured = measure(sample, estimate.flags);
+    const GapMeasurements<Scalar> measured =
+        measure_gaps(rig_, acquisition_, sample, estimate.flags);
     const bool other_time = (estimate.flags & (flag::kRestarted | flag::kOutOfOrder)) != 0 ||
                             sample.t_us - last_t_us_ > kLongestBridge_us;
     if (!begun_ || other_time) {
       begun_ = begin(measured);
     } else {
-      follow(measured, sample.t_us, estimate.flags);
+      follow(measured, sample.t_us, estimate.flags, witness);
     }
     last_t_us_ = sample.t_us;
     if (begun_) {
-      fill(measured, estimate);
+      put_state(rig_, filter_.state(),
+                {.first = filter_.variance(0), .second = filter_.variance(1)}, measured, estimate);
     } else {
       estimate.flags |= flag::kNoSolution;
     }
@@ -58,48 +71,11 @@ class SwingTracker {
   [[nodiscard]] const SwingFilter<Scalar>& filter() const { return filter_; }
 
  private:
-  struct Measurements {
-    std::array<GapMeasurement<Scalar>, kMaxSensors> gap{};
-    std::size_t count = 0;
-  };
-
   /// A pause after which nothing is left of what was known of the motion.
   static constexpr std::int64_t kLongestBridge_us = 30'000'000;
-  static constexpr std::int64_t kShortestDisturbance_us = 300'000;
-  static constexpr std::int64_t kLongestDisturbance_us = 2'000'000;
-  /// A pendulum that a hand moves, as an acceleration noise.
-  static constexpr Scalar kHand_rad_s15 = 3;
-
-  /// The gaps that can be used, each with what its noise makes of it.
-  Measurements measure(const Sample& sample, Flags& flags) const {
-    Measurements measured;
-    for (std::size_t i = 0; i < rig_.layout.count; ++i) {
-      if (!sample.has_reading(i)) {
-        flags |= flag::kMissing;
-        continue;
-      }
-      const Scalar volts = signal_v(sample.readings[i], acquisition_);
-      const Response<Scalar>& response = rig_.responses[i];
-      const GapReading<Scalar> reading = response.read(volts);
-      Flags against = reading.flags;
-      if (reading.gap_m && !beam_meets_disc(rig_.layout, i, *reading.gap_m, rig_.disc_diameter_m)) {
-        against |= flag::kOutOfRange;
-      }
-      flags |= against;
-      if (!reading.gap_m || against != 0 || (sample.flags & flag::kSaturated) != 0) {
-        continue;
-      }
-      const Scalar by_volts = response.slope_m_per_v(volts) * rig_.noise[i].volts;
-      measured.gap[measured.count++] = {
-          .sensor = i,
-          .gap_m = *reading.gap_m,
-          .variance_m2 = by_volts * by_volts + rig_.noise[i].gap_m * rig_.noise[i].gap_m};
-    }
-    return measured;
-  }
 
   /// Starts from the closed form; false where these gaps have none.
-  bool begin(const Measurements& measured) {
+  bool begin(const GapMeasurements<Scalar>& measured) {
     constexpr Scalar kAnyTheta_rad = 1;
     constexpr Scalar kAnyOmega_rad_s = 5;
     if (measured.count < rig_.layout.count) {
@@ -118,63 +94,41 @@ class SwingTracker {
       filter_.update(measured.gap[i], false);
     }
     watch_.reset();
-    disturbed_until_us_ = std::nullopt;
+    noise_.reset();
     return true;
   }
 
-  void follow(const Measurements& measured, std::int64_t t_us, Flags& flags) {
+  template <class Witness>
+  void follow(const GapMeasurements<Scalar>& measured, std::int64_t t_us, Flags& flags,
+              Witness& witness) {
     constexpr Scalar kMicro = Scalar(1e-6);
+    constexpr Scalar kKick_rad = Scalar(0.05);
+    constexpr Scalar kKick_rad_s = 2;
     const auto elapsed_us = static_cast<std::int32_t>(t_us - last_t_us_);
-    bool disturbed = disturbed_until_us_ && t_us < *disturbed_until_us_;
     const Scalar seconds = static_cast<Scalar>(elapsed_us) * kMicro;
-    filter_.predict(
-        seconds, disturbed ? kHand_rad_s15 : rig_.trust.acceleration_rad_s15 * distrust_.factor());
+    const auto transition = filter_.predict(
+        seconds, noise_.rad_s15(), rig_.trust.damping_walk_per_s15 * noise_.damping_factor());
+    std::array<bool, kMaxSensors> stray{};
     for (std::size_t i = 0; i < measured.count; ++i) {
       using Verdict = typename InnovationWatch<Scalar>::Verdict;
       const Scalar square = filter_.innovation(measured.gap[i]).normalized_square();
       const Verdict verdict = watch_.judge(square);
-      distrust_.learn(square, seconds / static_cast<Scalar>(measured.count));
-      if (verdict == Verdict::kStray) {
-        flags |= flag::kStray;
-        continue;
-      }
+      noise_.learn(square, seconds / static_cast<Scalar>(measured.count));
+      stray[i] = verdict == Verdict::kStray;
       if (verdict == Verdict::kDisturbed) {
-        disturb(t_us);
-        disturbed = true;
+        filter_.loosen(kKick_rad, kKick_rad_s);
+        noise_.jump();
       }
-      filter_.update(measured.gap[i], disturbed);
     }
-    flags |= disturbed ? flag::kDisturbed : 0;
-  }
-
-  /// From now on the motion is anything; for longer, the sooner it comes again.
-  void disturb(std::int64_t t_us) {
-    constexpr Scalar kKick_rad = Scalar(0.05);
-    constexpr Scalar kKick_rad_s = 2;
-    const bool again = disturbed_until_us_ && t_us - *disturbed_until_us_ < kShortestDisturbance_us;
-    disturbance_us_ =
-        again ? std::min(2 * disturbance_us_, kLongestDisturbance_us) : kShortestDisturbance_us;
-    disturbed_until_us_ = t_us + disturbance_us_;
-    filter_.loosen(kKick_rad, kKick_rad_s);
-  }
-
-  void fill(const Measurements& measured, Estimate<Scalar>& estimate) const {
-    const auto& state = filter_.state();
-    const Angles<Scalar> angles{.theta1_rad = state[0], .theta2_rad = state[1]};
-    estimate.attitude = {
-        .angles = angles,
-        .mass_m = rig_.pendulum.length_m * DiscPlane<Scalar>(slopes_of(angles)).rod()};
-    estimate.omega_rad_s = {.first = state[2], .second = state[3]};
-    estimate.sigma_rad = {.first = std::sqrt(filter_.variance(0)),
-                          .second = std::sqrt(filter_.variance(1))};
-    if (measured.count > 0) {
-      Scalar squares = 0;
-      for (std::size_t i = 0; i < measured.count; ++i) {
-        const Scalar misfit = measured.gap[i].gap_m - filter_.gap_m(measured.gap[i].sensor);
-        squares += misfit * misfit;
+    witness.predicted(transition, filter_);
+    for (std::size_t i = 0; i < measured.count; ++i) {
+      if (stray[i]) {
+        flags |= flag::kStray;
+      } else {
+        filter_.update(measured.gap[i], noise_.disturbed());
       }
-      estimate.residual_m = std::sqrt(squares / static_cast<Scalar>(measured.count));
     }
+    flags |= noise_.disturbed() ? flag::kDisturbed : 0;
   }
 
   Rig<Scalar> rig_;
@@ -183,9 +137,7 @@ class SwingTracker {
   SwingFilter<Scalar> filter_;
   Continuity continuity_;
   InnovationWatch<Scalar> watch_;
-  Distrust<Scalar> distrust_;
-  std::optional<std::int64_t> disturbed_until_us_;
-  std::int64_t disturbance_us_ = 0;
+  MotionNoise<Scalar> noise_;
   std::int64_t last_t_us_ = 0;
   bool begun_ = false;
 };
