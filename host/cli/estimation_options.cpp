@@ -134,24 +134,28 @@ void add_rig_option(CLI::App& command, std::string& path) {
 void add_estimation_options(CLI::App& command, EstimationOptions& options) {
   const std::map<std::string, EstimatorKind> estimators{{"gn", EstimatorKind::kGaussNewton},
                                                         {"ekf", EstimatorKind::kKalman},
+                                                        {"smoother", EstimatorKind::kSmoother},
                                                         {"paper", EstimatorKind::kPaper}};
   add_rig_option(command, options.rig_path);
   command
       .add_option("--estimator", options.estimator.kind,
                   "gn: filter, response, Gauss-Newton, row by row;\n"
+                  "ekf: Kalman filter on the pendulum's own motion, row by row, without delay;\n"
+                  "smoother: the same, corrected by what came later; not for a live run;\n"
                   "paper: the paper's Appendix A to the letter, after the last sample")
       ->transform(CLI::CheckedTransformer(estimators).description(""))
-      ->type_name("gn|paper")
+      ->type_name("gn|ekf|smoother|paper")
       ->default_str("gn");
-  command.add_flag("--align", options.estimator.align,
-                   "With paper: take the filter's delay out of the rows' times (gn always does)");
+  command.add_flag(
+      "--align", options.estimator.align,
+      "With paper: take the filter's delay out of the rows' times (the others always do)");
   add_output_options(command, options.output);
   command.add_flag("--strict", options.strict,
                    "End with status 3 where the data had flagged problems");
   command.parse_complete_callback([&options] {
     if (options.estimator.align && options.estimator.kind != EstimatorKind::kPaper) {
-      throw CLI::ValidationError("--align",
-                                 "is for --estimator paper; the rows of gn are aligned already");
+      throw CLI::ValidationError(
+          "--align", "is for --estimator paper; the rows of the others are aligned already");
     }
   });
 }

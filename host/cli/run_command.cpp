@@ -201,6 +201,12 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
     if (!is_live(*options, *source) || is_offline(options->estimation.estimator.kind)) {
       refuse_network_outputs(options->estimation.output);
     }
+    if (is_live(*options, *source) &&
+        options->estimation.estimator.kind == EstimatorKind::kSmoother) {
+      throw CLI::ValidationError(
+          "--estimator",
+          "smoother looks back from later samples: run ekf with --record, then replay");
+    }
     status = run(*options, *source);
   });
 }

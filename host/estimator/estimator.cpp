@@ -7,6 +7,7 @@
 #include "common/pipeline.hpp"
 #include "common/swing_tracker.hpp"
 #include "host/estimator/paper_estimator.hpp"
+#include "host/estimator/smoother.hpp"
 
 namespace penduline {
 namespace {
@@ -44,6 +45,8 @@ tl::expected<std::unique_ptr<Estimator>, Error> make_estimator(
       break;
     case EstimatorKind::kKalman:
       return std::make_unique<StreamingEstimator<SwingTracker<double>>>(rig, acquisition);
+    case EstimatorKind::kSmoother:
+      return std::make_unique<Smoother>(rig, acquisition);
   }
   return std::make_unique<StreamingEstimator<Pipeline<double>>>(rig, acquisition);
 }

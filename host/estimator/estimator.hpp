@@ -23,11 +23,11 @@ class Estimator {
   /// Takes the next sample. A streaming estimator hands its estimate on at once.
   virtual tl::expected<void, Error> take(const Sample& sample, EstimateSink& sink) = 0;
 
-  /// Ends the stream. An offline estimator hands all its estimates on here, one a sample.
+  /// Ends the stream. An offline estimator hands its last estimates on here; there is one a sample.
   virtual tl::expected<void, Error> finish(EstimateSink& sink) = 0;
 };
 
-enum class EstimatorKind { kPaper, kGaussNewton, kKalman };
+enum class EstimatorKind { kPaper, kGaussNewton, kKalman, kSmoother };
 
 /// What the command line calls it.
 [[nodiscard]] constexpr std::string_view estimator_name(EstimatorKind kind) {
@@ -37,14 +37,16 @@ enum class EstimatorKind { kPaper, kGaussNewton, kKalman };
     case EstimatorKind::kGaussNewton:
       return "gn";
     case EstimatorKind::kKalman:
+      return "ekf";
+    case EstimatorKind::kSmoother:
       break;
   }
-  return "ekf";
+  return "smoother";
 }
 
-/// Whether all its estimates come after the last sample.
+/// Whether its estimates come long after their samples, many at once.
 [[nodiscard]] constexpr bool is_offline(EstimatorKind kind) {
-  return kind == EstimatorKind::kPaper;
+  return kind == EstimatorKind::kPaper || kind == EstimatorKind::kSmoother;
 }
 
 struct EstimatorOptions {
