@@ -20,7 +20,6 @@ struct FilterTrust {
   Scalar offset_m = 0;                          ///< of each sensor's gap, at the start
   Scalar acceleration_rad_s15 = Scalar(0.002);  ///< white: rad/s^2 in the square root of a Hz
   Scalar damping_walk_per_s15 = Scalar(0.005);  ///< what the damping changes in root a second
-  Scalar length_walk_s05 = 0;                   ///< the same of the length's share
   Scalar offset_walk_m_s05 = 0;                 ///< the same of each offset
 };
 

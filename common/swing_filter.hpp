@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <functional>
 
-#include "common/disc_plane.hpp"
 #include "common/dynamics.hpp"
 #include "common/filter_trust.hpp"
+#include "common/gap_gradient.hpp"
 #include "common/gap_measurement.hpp"
 #include "common/swing_step.hpp"
 
@@ -71,7 +71,6 @@ class SwingFilter {
       covariance_[i + 2][i] = covariance_[i][i + 2];
       covariance_[i + 2][i + 2] += power;
     }
-    covariance_[kLength][kLength] += trust_.length_walk_s05 * trust_.length_walk_s05 * seconds;
     covariance_[kDamping][kDamping] += damping_walk * damping_walk * seconds;
     for (std::size_t i = kOffsets; i < states_; ++i) {
       covariance_[i][i] += trust_.offset_walk_m_s05 * trust_.offset_walk_m_s05 * seconds;
@@ -139,28 +138,16 @@ class SwingFilter {
   [[nodiscard]] Scalar length_m() const { return pendulum_.length_m * std::exp(state_[kLength]); }
 
  private:
-  /// A gap and its derivative by the angles; that by the sensor's own offset is 1.
-  struct Expected {
-    Scalar gap_m;
-    Scalar by_theta1;
-    Scalar by_theta2;
-  };
+  using Expected = GapGradient<Scalar>;
 
   [[nodiscard]] Scalar stiffness_1_s2() const { return pendulum_.gravity_m_s2 / length_m(); }
 
+  /// The gap that a state makes one expect; its derivative by the sensor's own offset is 1.
   [[nodiscard]] Expected expect(const State& state, std::size_t sensor) const {
-    const Angles<Scalar> angles{.theta1_rad = state[0], .theta2_rad = state[1]};
-    const Slopes<Scalar> slopes = slopes_of(angles);
-    const DiscPlane<Scalar> plane(slopes);
-    const Vector3<Scalar>& face = layout_.position_m[sensor];
-    const Vector2<Scalar> gradient =
-        plane.rise_gradient_m(face.x(), face.y(), layout_.disc_offset_m);
-    // Of eq. 7: b = tan(theta1), and a = -tan(theta2) sqrt(1 + b^2).
-    const Scalar secant1 = 1 + slopes.b * slopes.b;
-    const Scalar a_by_theta2 = -(secant1 + slopes.a * slopes.a) / std::sqrt(secant1);
-    return {.gap_m = plane.gap_m(layout_, sensor) + state[kOffsets + sensor],
-            .by_theta1 = -(gradient.x() * slopes.a * slopes.b + gradient.y() * secant1),
-            .by_theta2 = -gradient.x() * a_by_theta2};
+    Expected expected = gap_gradient(
+        layout_, sensor, Angles<Scalar>{.theta1_rad = state[0], .theta2_rad = state[1]});
+    expected.gap_m += state[kOffsets + sensor];
+    return expected;
   }
 
   [[nodiscard]] static State difference(const State& a, const State& b) {
@@ -172,7 +159,7 @@ class SwingFilter {
   /// The derivative of an expected gap, times a vector.
   [[nodiscard]] static Scalar along(const Expected& expected, std::size_t sensor,
                                     const std::array<Scalar, kMostStates>& vector) {
-    return expected.by_theta1 * vector[0] + expected.by_theta2 * vector[1] +
+    return expected.by_theta1_m * vector[0] + expected.by_theta2_m * vector[1] +
            vector[kOffsets + sensor];
   }
 

@@ -45,6 +45,24 @@ void read_filter(const toml::table& table, Rig<double>& rig, TomlFindings& findi
   section.complain_of_unknown_keys();
 }
 
+void read_trust(const toml::table& table, Rig<double>& rig, TomlFindings& findings) {
+  TomlSection section(table, "[ekf]", findings);
+  FilterTrust<double>& trust = rig.trust;
+  const auto read = [&](std::string_view key, double& value) {
+    value = section.number_or(key, kNotNegative, value);
+  };
+  double length_sigma_m = trust.length_share * rig.pendulum.length_m;
+  read("length_sigma_m", length_sigma_m);
+  trust.length_share = length_sigma_m / rig.pendulum.length_m;
+  read("damping_sigma_per_s", trust.damping_per_s);
+  read("offset_sigma_m", trust.offset_m);
+  trust.acceleration_rad_s15 =
+      section.number_or("acceleration_rad_s15", kAboveZero, trust.acceleration_rad_s15);
+  read("damping_walk_per_s15", trust.damping_walk_per_s15);
+  read("offset_walk_m_s05", trust.offset_walk_m_s05);
+  section.complain_of_unknown_keys();
+}
+
 void read_sensor(const toml::table& table, std::size_t index, RigFile& file,
                  TomlFindings& findings) {
   TomlSection section(table, fmt::format("[[sensor]] {}", index + 1), findings);
@@ -58,6 +76,9 @@ void read_sensor(const toml::table& table, std::size_t index, RigFile& file,
   } else {
     section.fail("response", "missing, expected a table such as { model = \"linear\", ... }");
   }
+  SensorNoise<double>& noise = file.rig.noise[index];
+  noise.volts = section.number_or("noise_v", kNotNegative, noise.volts);
+  noise.gap_m = section.number_or("noise_m", kAboveZero, noise.gap_m);
   section.complain_of_unknown_keys();
 }
 
@@ -108,6 +129,9 @@ tl::expected<RigFile, Error> parse_rig(const std::string& toml_text, const std::
   }
   if (const auto* table = top.section("filter")) {
     read_filter(*table, file.rig, findings);
+  }
+  if (const auto* table = top.section("ekf")) {
+    read_trust(*table, file.rig, findings);
   }
   if (const auto* table = top.section("gpio")) {
     file.lines = read_gpio(*table, findings);

@@ -5,29 +5,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/unit/common/simulated_swing.hpp"
 #include "tests/unit/common/test_rig.hpp"
 
 namespace penduline::test {
 namespace {
 
 using State = SwingState<double>;
-
-State moved(const State& state, const State& rate, double time_s) {
-  return {.theta1_rad = state.theta1_rad + time_s * rate.theta1_rad,
-          .theta2_rad = state.theta2_rad + time_s * rate.theta2_rad,
-          .omega1_rad_s = state.omega1_rad_s + time_s * rate.omega1_rad_s,
-          .omega2_rad_s = state.omega2_rad_s + time_s * rate.omega2_rad_s};
-}
-
-/// One step of the classical Runge-Kutta method.
-State stepped(const State& state, const Pendulum<double>& pendulum, double step_s) {
-  const State k1 = swing_derivative(state, pendulum);
-  const State k2 = swing_derivative(moved(state, k1, step_s / 2), pendulum);
-  const State k3 = swing_derivative(moved(state, k2, step_s / 2), pendulum);
-  const State k4 = swing_derivative(moved(state, k3, step_s), pendulum);
-  const State ends = moved(moved(state, k1, step_s / 6), k4, step_s / 6);
-  return moved(moved(ends, k2, step_s / 3), k3, step_s / 3);
-}
 
 /// 0.1 ms steps, whose error is far below every bar here.
 template <class Visitor>

@@ -13,14 +13,23 @@
 #include "common/disc_plane.hpp"
 #include "common/dynamics.hpp"
 #include "common/estimate.hpp"
+#include "common/filter_trust.hpp"
 #include "common/fir.hpp"
 #include "common/flags.hpp"
+#include "common/gap_gradient.hpp"
+#include "common/gap_measurement.hpp"
 #include "common/gauss_newton.hpp"
+#include "common/innovation_watch.hpp"
 #include "common/monotone_cubic.hpp"
+#include "common/motion_noise.hpp"
 #include "common/pipeline.hpp"
 #include "common/response.hpp"
 #include "common/rig.hpp"
 #include "common/sample.hpp"
+#include "common/swing_estimate.hpp"
+#include "common/swing_filter.hpp"
+#include "common/swing_step.hpp"
+#include "common/swing_tracker.hpp"
 #include "common/window_flags.hpp"
 #include "common/window_moment.hpp"
 #include "common/wire/bytes.hpp"
@@ -99,6 +108,13 @@ template struct Response<double>;
 
 template struct Rig<float>;
 template struct Rig<double>;
+
+template class SwingFilter<float>;
+template class SwingFilter<double>;
+template class SwingTracker<float>;
+template class SwingTracker<double>;
+template Estimate<float> SwingTracker<float>::update(const Sample&, NoWitness&&);
+template Estimate<double> SwingTracker<double>::update(const Sample&, NoWitness&&);
 
 template float signal_v(Reading, const Acquisition<float>&);
 template double signal_v(Reading, const Acquisition<double>&);
