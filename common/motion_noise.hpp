@@ -35,7 +35,7 @@ class MotionNoise {
 
  private:
   static constexpr Scalar kSpeed = 4;  ///< e-fold per second and unit of excess
-  static constexpr Scalar kUsualSquare = Scalar(1.3);
+  static constexpr Scalar kUsualSquare = Scalar(1.5);
   static constexpr Scalar kMostSquare = 9;
   static constexpr Scalar kHand = 3;
   static constexpr Scalar kDisturbed = Scalar(0.3);

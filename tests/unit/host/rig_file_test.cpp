@@ -82,6 +82,35 @@ TEST_CASE("What is optional has its default", "[rig]") {
   CHECK_FALSE(file.rig.filter.has_value());
 }
 
+TEST_CASE("What the Kalman filter is to believe is read", "[rig]") {
+  const RigFile file = good(rig_with(10, "name = \"Sx\"\nnoise_v = 0.002\nnoise_m = 20e-6") +
+                            "[ekf]\n"
+                            "length_sigma_m = 0.003\n"
+                            "damping_sigma_per_s = 0.02\n"
+                            "offset_sigma_m = 50e-6\n"
+                            "acceleration_rad_s15 = 0.01\n"
+                            "damping_walk_per_s15 = 0.001\n"
+                            "offset_walk_m_s05 = 1e-6\n");
+  CHECK(file.complaints.empty());
+  CHECK(file.rig.noise[0].volts == 0.002);
+  CHECK(file.rig.noise[0].gap_m == 20e-6);
+  CHECK(file.rig.noise[1].volts == 0.0005);
+  CHECK(file.rig.noise[1].gap_m == 10e-6);
+  CHECK(file.rig.trust.length_share == Approx(0.01));
+  CHECK(file.rig.trust.damping_per_s == 0.02);
+  CHECK(file.rig.trust.offset_m == 50e-6);
+  CHECK(file.rig.trust.acceleration_rad_s15 == 0.01);
+  CHECK(file.rig.trust.damping_walk_per_s15 == 0.001);
+  CHECK(file.rig.trust.offset_walk_m_s05 == 1e-6);
+}
+
+TEST_CASE("A Kalman filter that believes all or nothing is refused", "[rig]") {
+  CHECK(rig_error(std::string(kRigText) + "[ekf]\nacceleration_rad_s15 = 0\n") ==
+        "rig.toml:21: [ekf] acceleration_rad_s15: found 0, expected a number above 0");
+  CHECK(rig_error(rig_with(10, "noise_m = 0")) ==
+        "rig.toml:10: [[sensor]] 1 noise_m: found 0, expected a number above 0");
+}
+
 TEST_CASE("Numbers may be written without a decimal point", "[rig]") {
   CHECK(good(rig_with(2, "length_m = 2")).rig.pendulum.length_m == 2);
   CHECK(good(rig_with(11, "position_m = [1, 0, 0]")).rig.layout.position_m[0].x() == 1);
