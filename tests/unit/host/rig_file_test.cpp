@@ -105,7 +105,7 @@ TEST_CASE("What the Kalman filter is to believe is read", "[rig]") {
 }
 
 TEST_CASE("A Kalman filter that believes all or nothing is refused", "[rig]") {
-  CHECK(rig_error(std::string(kRigText) + "[ekf]\nacceleration_rad_s15 = 0\n") ==
+  CHECK(rig_error(fmt::format("{}[ekf]\nacceleration_rad_s15 = 0\n", kRigText)) ==
         "rig.toml:21: [ekf] acceleration_rad_s15: found 0, expected a number above 0");
   CHECK(rig_error(rig_with(10, "noise_m = 0")) ==
         "rig.toml:10: [[sensor]] 1 noise_m: found 0, expected a number above 0");
@@ -150,14 +150,15 @@ TEST_CASE("An unknown key is complained of and the rest is read", "[rig]") {
 }
 
 TEST_CASE("Unknown keys are complained of in every section", "[rig]") {
-  CHECK(good(fmt::format("colour = 1\n{}", kRigText)).complaints ==
-        Lines{"rig.toml:1: rig file colour: unknown key, ignored; known are disc, filter, gpio, "
-              "pendulum, sensor"});
+  CHECK(
+      good(fmt::format("colour = 1\n{}", kRigText)).complaints ==
+      Lines{"rig.toml:1: rig file colour: unknown key, ignored; known are disc, ekf, filter, gpio, "
+            "pendulum, sensor"});
   CHECK(good(rig_with(6, "[disc]\ncolour = 1")).complaints ==
         Lines{"rig.toml:7: [disc] colour: unknown key, ignored; known are diameter_m, offset_m"});
   CHECK(good(rig_with(14, "colour = 1")).complaints ==
         Lines{"rig.toml:14: [[sensor]] 2 colour: unknown key, ignored; known are name, "
-              "position_m, response"});
+              "noise_m, noise_v, position_m, response"});
   CHECK(good(rig_with(17, "[filter]\ncolour = 1")).complaints ==
         Lines{"rig.toml:18: [filter] colour: unknown key, ignored; known are cutoff_of_nyquist, "
               "order"});
