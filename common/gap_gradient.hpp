@@ -16,7 +16,7 @@ struct GapGradient {
   Scalar by_theta2_m;
 };
 
-/// Method.md eqs. 9 and 11, differentiated through the slopes of eq. 7.
+/// Gap and derivative (method.md eqs. 11 and 28).
 template <class Scalar>
 [[nodiscard]] GapGradient<Scalar> gap_gradient(const SensorLayout<Scalar>& layout,
                                                std::size_t sensor, const Angles<Scalar>& angles) {

@@ -28,8 +28,9 @@ struct GapMeasurements {
   std::size_t count = 0;
 };
 
-/// Reads a sample's gaps, each with what its sensor's noise makes of it. One that is missing,
-/// saturated, beyond its response's range or from beside the disc is left out and flagged.
+/// Reads a sample's gaps, each with what its sensor's noise makes of it (method.md eq. 29). One
+/// that is missing, saturated, beyond its response's range or from beside the disc is left out and
+/// flagged.
 template <class Scalar>
 [[nodiscard]] GapMeasurements<Scalar> measure_gaps(const Rig<Scalar>& rig,
                                                    const Acquisition<Scalar>& acquisition,

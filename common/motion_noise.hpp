@@ -8,7 +8,8 @@ namespace penduline {
 
 /// The acceleration noise of the Kalman filter, in rad/s^2 in the square root of a Hz. It grows
 /// while innovations are larger than believed and shrinks to what it was told when they are not:
-/// friction that is not linear, a draught, a pivot that gives. A hand makes it jump.
+/// friction that is not linear, a draught, a pivot that gives (method.md eq. 31). A hand makes it
+/// jump.
 template <class Scalar>
 class MotionNoise {
  public:

@@ -16,7 +16,8 @@
 
 namespace penduline {
 
-/// State theta1, theta2, omega1, omega2, ln(length / nominal length), damping, one offset a sensor.
+/// State theta1, theta2, omega1, omega2, ln(length / nominal length), damping, one offset a sensor
+/// (method.md eq. 25).
 template <class Scalar>
 class SwingFilter {
  public:
@@ -53,7 +54,8 @@ class SwingFilter {
   }
 
   /// Goes on in time by `seconds`; `acceleration` and `damping_walk` are the noises that move the
-  /// pendulum and change its damping, as in FilterTrust. The length changes as exp of its state.
+  /// pendulum and change its damping, as in FilterTrust (method.md eqs. 26 and 27). The length
+  /// changes as exp of its state.
   Transition predict(Scalar seconds, Scalar acceleration, Scalar damping_walk) {
     const SwingVector<Scalar> motion(state_[0], state_[1], state_[2], state_[3]);
     const Scalar stiffness = stiffness_1_s2();
@@ -185,7 +187,7 @@ class SwingFilter {
     return by;
   }
 
-  /// Covariance after a step of the motion: F P F^T, F the identity but for the motion's rows.
+  /// F P F' (method.md eq. 26), F the identity but for the motion's rows.
   void transform(const Transition& by) {
     std::array<std::array<Scalar, kMostStates>, kMotion> half{};
     for (std::size_t i = 0; i < kMotion; ++i) {
@@ -209,8 +211,8 @@ class SwingFilter {
     }
   }
 
-  /// Covariance after a measurement in Joseph's form, right for any gain and never negative:
-  /// (I - K H) P (I - K H)^T + K R K^T.
+  /// Covariance after a measurement in Joseph's form, right for any gain and never negative
+  /// (method.md eq. 30).
   void narrow(const Expected& expected, const GapMeasurement<Scalar>& measured,
               const std::array<Scalar, kMostStates>& spread,
               const std::array<Scalar, kMostStates>& gain) {

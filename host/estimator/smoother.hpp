@@ -12,7 +12,7 @@
 
 namespace penduline {
 
-/// Rauch, Tung and Striebel's smoother on the steps of `SwingTracker` (method.md eq. 33). Each
+/// Rauch, Tung and Striebel's smoother on the steps of `SwingTracker` (method.md eq. 32). Each
 /// estimate has seen the samples of 20 s after it, where there are so many; memory is kept for
 /// twice that time, 1.5 kB a sample of two sensors, however long the recording is.
 class Smoother final : public Estimator {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/pipeline.hpp"
+#include "common/swing_tracker.hpp"
 #include "hal/replay/recording_format.hpp"
 #include "hal/replay/recording_reader.hpp"
 #include "hal/sim/sampled_rig.hpp"
@@ -73,16 +74,16 @@ void count_rows(benchmark::State& state, std::size_t rows) {
                                                         benchmark::Counter::kInvert);
 }
 
-template <class Scalar, Model kModel>
+template <template <class> class Core, class Scalar, Model kModel>
 void update(benchmark::State& state) {
   const std::vector<Sample> samples = simulated(kModel);
   const Rig<Scalar> rig = rig_with<Scalar>(kModel);
   std::size_t unanswered = 0;
   for ([[maybe_unused]] auto _ : state) {
-    Pipeline<Scalar> pipeline(rig, {.rate_hz = kRateHz});
+    Core<Scalar> core(rig, {.rate_hz = kRateHz});
     unanswered = 0;
     for (const Sample& sample : samples) {
-      const Estimate<Scalar> estimate = pipeline.update(sample);
+      const Estimate<Scalar> estimate = core.update(sample);
       unanswered += estimate.attitude ? 0U : 1U;
     }
     benchmark::DoNotOptimize(unanswered);
@@ -91,10 +92,13 @@ void update(benchmark::State& state) {
   state.counters["unanswered"] = static_cast<double>(unanswered);
 }
 
-BENCHMARK(update<double, Model::kLinear>)->Name("update/linear/double");
-BENCHMARK(update<double, Model::kTable>)->Name("update/table/double");
-BENCHMARK(update<float, Model::kLinear>)->Name("update/linear/float");
-BENCHMARK(update<float, Model::kTable>)->Name("update/table/float");
+BENCHMARK(update<Pipeline, double, Model::kLinear>)->Name("update/linear/double");
+BENCHMARK(update<Pipeline, double, Model::kTable>)->Name("update/table/double");
+BENCHMARK(update<Pipeline, float, Model::kLinear>)->Name("update/linear/float");
+BENCHMARK(update<Pipeline, float, Model::kTable>)->Name("update/table/float");
+BENCHMARK(update<SwingTracker, double, Model::kLinear>)->Name("ekf/linear/double");
+BENCHMARK(update<SwingTracker, double, Model::kTable>)->Name("ekf/table/double");
+BENCHMARK(update<SwingTracker, float, Model::kLinear>)->Name("ekf/linear/float");
 
 /// A file in memory only, by a path that anyone in this process can open.
 class MemoryFile {

@@ -92,7 +92,7 @@ def print_live(runs):
           f"{run['lost'] + run['rows_missing']:,}"] for name, run in runs.items()])
 
 
-def print_bars(solvers, replays):
+def print_bars(solvers, parts, replays):
     def ratio_to(name, mode=""):
         return solvers[name + mode]["s_per_solve"] / solvers[OURS + mode]["s_per_solve"]
 
@@ -104,6 +104,7 @@ def print_bars(solvers, replays):
                 for name, run in solvers.items() if name.startswith("gauss_newton"))
     rate = min(run["samples_per_core_s"] for name, run in replays.items()
                if name.startswith("1000000/"))
+    step_s = max(run["s_per_row"] for name, run in parts.items() if name.startswith("ekf/"))
     peaks = [run["peak_kib"] / 1024 for run in replays.values()]
     scipy, octave = (ratio_to(f"{peer}_fsolve/from_zero") for peer in ("scipy", "octave"))
     bars = [
@@ -112,6 +113,7 @@ def print_bars(solvers, replays):
         ("against SciPy's fsolve as in Appendix A", times(scipy), "1,000", scipy >= 1000),
         ("against Octave's fsolve as in Appendix A", times(octave), "10,000", octave >= 10000),
         ("wrong roots of Gauss-Newton, swing and range", f"{wrong:.0f}", "0", wrong == 0),
+        ("a step of ekf, us", f"{step_s * 1e6:.2f}", "2", step_s < 2e-6),
         ("replay of a million rows, million samples/s", f"{rate / 1e6:.2f}", "1", rate >= 1e6),
         ("replay's peak memory, MiB, least and greatest", f"{min(peaks):.1f}-{max(peaks):.1f}",
          "alike", max(peaks) < 1.1 * min(peaks)),
@@ -135,12 +137,13 @@ def main():
     replays = lines(path("replay.jsonl"))
     print_inverse(solvers)
     print_fir(medians("fir.json"))
-    print_replay(medians("pipeline.json"), replays)
+    parts = medians("pipeline.json")
+    print_replay(parts, replays)
     print_live(lines(path("live.jsonl")))
     spread = sorted(spreads("inverse.json") + spreads("fir.json") + spreads("pipeline.json"))
     print(f"\nSpread of the repetitions: {spread[len(spread) // 2]:.1%} in the middle, "
           f"{spread[-1]:.1%} at worst")
-    print_bars(solvers, replays)
+    print_bars(solvers, parts, replays)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs the built program as a user would, for the tests in Python.
+import bisect
 import csv
 import math
 import os
@@ -37,7 +38,7 @@ def rms_error_deg(estimates, truth, from_s=0.0):
         now = float(row["t_s"])
         if row["theta1_rad"] == "" or now < from_s or not times[0] <= now <= times[-1]:
             continue
-        after = next(i for i, time in enumerate(times) if time >= now and i > 0)
+        after = max(1, bisect.bisect_left(times, now))
         share = (now - times[after - 1]) / (times[after] - times[after - 1])
         for angle in ("theta1_rad", "theta2_rad"):
             low, high = float(truth[after - 1][angle]), float(truth[after][angle])

@@ -11,8 +11,10 @@
 #include <tuple>
 
 #include "common/pipeline.hpp"
+#include "common/swing_tracker.hpp"
 #include "common/wire/decoder.hpp"
 #include "common/wire/rig_image.hpp"
+#include "tests/unit/common/simulated_swing.hpp"
 #include "tests/unit/common/test_rig.hpp"
 
 namespace {
@@ -122,6 +124,24 @@ void run_pipeline() {
   }
 }
 
+/// The Kalman filter over a swing with a dropout, a kick and a stray reading.
+template <class Scalar>
+void run_tracker() {
+  SimulatedSwing swing(1, start_of(1));
+  SwingTracker<Scalar> tracker(noisy_rig<Scalar>(), {});
+  for (int i = 0; i < 200; ++i) {
+    if (i == 100) {
+      swing.lose();
+      swing.kick(0.6, -0.4);
+    }
+    Sample sample = swing.next();
+    sample.readings[0].on += i == 50 ? 3000 : 0;
+    if (!tracker.update(sample).attitude) {
+      std::abort();
+    }
+  }
+}
+
 TEST_CASE("The count sees an allocation of every form", "[no_heap]") {
   // Called by name, since the compiler may leave out a new-expression.
   const std::align_val_t line{64};
@@ -135,6 +155,10 @@ TEST_CASE("The count sees an allocation of every form", "[no_heap]") {
 TEMPLATE_TEST_CASE("Making a pipeline and running it allocates nothing", "[no_heap]", float,
                    double) {
   CHECK(allocations_in(run_pipeline<TestType>) == 0);
+}
+
+TEMPLATE_TEST_CASE("The Kalman filter allocates nothing", "[no_heap]", float, double) {
+  CHECK(allocations_in(run_tracker<TestType>) == 0);
 }
 
 /// Every message there and back, and a rig's image.
