@@ -25,7 +25,7 @@ struct SerialDevice {
   [[nodiscard]] std::string text() const;
 };
 
-/// Every serial port that is a USB device's, by udev, in the order of their paths.
+/// The serial ports of USB devices (ttyACM and ttyUSB), by udev, in the order of their paths.
 [[nodiscard]] std::vector<SerialDevice> serial_devices();
 
 /// What `auto` came to: a path, or in words why there is none.
