@@ -136,6 +136,9 @@ tl::expected<RigFile, Error> parse_rig(const std::string& toml_text, const std::
   if (const auto* table = top.section("gpio")) {
     file.lines = read_gpio(*table, findings);
   }
+  if (const auto* table = top.section("calibration")) {
+    file.calibration = read_calibration(*table, findings);
+  }
   top.complain_of_unknown_keys();
   if (findings.error) {
     return tl::unexpected(*findings.error);
@@ -145,22 +148,8 @@ tl::expected<RigFile, Error> parse_rig(const std::string& toml_text, const std::
 }
 
 tl::expected<RigFile, Error> read_rig_file(const std::string& path) {
-  auto lines = LineReader::open(path);
-  if (!lines) {
-    return tl::unexpected(lines.error());
-  }
-  std::string text;
-  while (true) {
-    const auto outcome = lines->next();
-    if (!outcome) {
-      return tl::unexpected(outcome.error());
-    }
-    if (*outcome == LineReader::Outcome::kEndOfFile) {
-      return parse_rig(text, path);
-    }
-    text += lines->line();
-    text += '\n';
-  }
+  return read_whole_text(path).and_then(
+      [&](const std::string& text) { return parse_rig(text, path); });
 }
 
 }  // namespace penduline

@@ -2,12 +2,14 @@
 // Reads a rig file: what the program must know of the apparatus, in TOML.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "common/rig.hpp"
 #include "hal/error.hpp"
+#include "host/calibration_section.hpp"
 #include "host/gpio_section.hpp"
 
 namespace penduline {
@@ -17,6 +19,7 @@ struct RigFile {
   Rig<double> rig;
   std::vector<std::string> sensor_names;
   RigLines lines;
+  std::optional<CalibrationRecord> calibration{};  ///< where the numbers come from, if it says so
   std::vector<std::string> complaints;  ///< unknown keys, which are probably misspelt
 };
 

@@ -130,4 +130,23 @@ double LineReader::progress() const {
                                               static_cast<double>(size_bytes_));
 }
 
+tl::expected<std::string, Error> read_whole_text(const std::string& path) {
+  auto lines = LineReader::open(path);
+  if (!lines) {
+    return tl::unexpected(lines.error());
+  }
+  std::string text;
+  while (true) {
+    const auto outcome = lines->next();
+    if (!outcome) {
+      return tl::unexpected(outcome.error());
+    }
+    if (*outcome == LineReader::Outcome::kEndOfFile) {
+      return text;
+    }
+    text += lines->line();
+    text += '\n';
+  }
+}
+
 }  // namespace penduline

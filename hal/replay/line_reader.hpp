@@ -65,4 +65,7 @@ class LineReader {
   std::uint64_t line_number_ = 0;
 };
 
+/// All lines of a file, each ended by LF. Fails where `LineReader` does.
+[[nodiscard]] tl::expected<std::string, Error> read_whole_text(const std::string& path);
+
 }  // namespace penduline

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Is it still, where does it hang, and what must change for that to be 0.
+#include "host/calibration/rest_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/gauss_newton.hpp"
+#include "host/calibration/static_calibration.hpp"
+
+namespace penduline {
+namespace {
+
+constexpr double kDegPerRad = 180 / std::numbers::pi;
+constexpr double kMilli = 1e-3;
+constexpr double kMicro = 1e-6;
+
+/// One sensor at rest.
+struct RestGap {
+  MeanSignal mean;
+  double gap_m = 0;       ///< by the rig's response
+  double expected_m = 0;  ///< by the rig's geometry
+  double sigma_m = 0;     ///< of `gap_m`
+  double motion_m = 0;    ///< RMS of what is not noise from sample to sample
+  double drift_m = 0;     ///< from the first third to the last
+};
+
+double drift_v(const std::vector<double>& volts) {
+  const auto third = static_cast<std::ptrdiff_t>(volts.size() / 3);
+  const std::vector<double> first(volts.begin(), volts.begin() + third);
+  const std::vector<double> last(volts.end() - third, volts.end());
+  return mean_signal(last).volts - mean_signal(first).volts;
+}
+
+/// Where samples are so rare that a swing looks like noise, all scatter may be a swing.
+bool rate_shows_swing(const Rig<double>& rig, const SignalLog& log) {
+  return log.acquisition.rate_hz > 8 * small_swing_hz(rig.pendulum);
+}
+
+tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<SignalLog>& logs,
+                                      std::size_t sensor) {
+  constexpr std::size_t kFewest = 20;
+  const Response<double>& response = rig.rig.responses[sensor];
+  const std::string& name = rig.sensor_names[sensor];
+  std::vector<double> volts;
+  double motion_v = 0;
+  double longest_drift_v = 0;
+  for (const SignalLog& log : logs) {
+    const std::vector<double> signals = log.signals(sensor, log.t_s.front(), log.t_s.back());
+    if (signals.size() < kFewest) {
+      return failure(fmt::format("{}: found {} samples of sensor {}, expected {} or more", log.path,
+                                 signals.size(), name, kFewest));
+    }
+    const MeanSignal mean = mean_signal(signals);
+    motion_v =
+        std::max(motion_v, rate_shows_swing(rig.rig, log) ? mean.slow_scatter_v : mean.scatter_v);
+    longest_drift_v = std::max(longest_drift_v, std::abs(drift_v(signals)));
+    volts.insert(volts.end(), signals.begin(), signals.end());
+  }
+  RestGap rest{.mean = mean_signal(volts)};
+  const GapReading<double> reading = response.read(rest.mean.volts);
+  if (!reading.gap_m || reading.flags != 0) {
+    return failure(fmt::format(
+        "{}: sensor {}: found {:.4f} V, which is outside its response's range, expected a signal "
+        "of the rig's sensor: calibrate it by 'swing' or 'static' first",
+        logs.front().path, name, rest.mean.volts));
+  }
+  const double slope_m_per_v = std::abs(response.slope_m_per_v(rest.mean.volts));
+  rest.gap_m = *reading.gap_m;
+  rest.expected_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, sensor);
+  rest.sigma_m = rest.mean.standard_error_v() * slope_m_per_v;
+  rest.motion_m = motion_v * slope_m_per_v;
+  rest.drift_m = longest_drift_v * slope_m_per_v;
+  return rest;
+}
+
+/// Degrees that a gap's change means under this sensor.
+double degrees_of(const RigFile& rig, std::size_t sensor, double gap_m) {
+  return gap_m / rig.rig.layout.position_m[sensor].head<2>().norm() * kDegPerRad;
+}
+
+tl::expected<void, Error> require_still(const RigFile& rig, const std::vector<SignalLog>& logs,
+                                        std::size_t sensor, const RestGap& rest) {
+  constexpr double kMost_deg = 0.03;
+  const auto refuse = [&](double found_deg, std::string_view what, std::string_view advice) {
+    return failure(fmt::format(
+        "{}: the pendulum is not still: sensor {} sees {} by {:.3f} deg, "
+        "expected {:.2f} or less: {}",
+        logs.front().path, rig.sensor_names[sensor], what, found_deg, kMost_deg, advice));
+  };
+  if (const double deg = degrees_of(rig, sensor, rest.motion_m); deg > kMost_deg) {
+    return refuse(deg, "it move (RMS)", "wait until it hangs still");
+  }
+  if (const double deg = degrees_of(rig, sensor, rest.drift_m); deg > kMost_deg) {
+    return refuse(deg, "it drift", "let the sensors warm up");
+  }
+  if (const double deg = degrees_of(rig, sensor, rest.sigma_m); deg > kMost_deg) {
+    return refuse(deg, "a mean uncertain", "record for longer");
+  }
+  return {};
+}
+
+/// The model with the gap of every signal moved by so much.
+LinearResponse<double> shifted(LinearResponse<double> model, double by_m) {
+  model.gap_at_zero_m += by_m;
+  return model;
+}
+TableResponse<double> shifted(const TableResponse<double>& model, double by_m) {
+  const auto volts = model.gap_over_volts.x();
+  std::vector<double> gaps(model.gap_over_volts.y().begin(), model.gap_over_volts.y().end());
+  std::ranges::for_each(gaps, [&](double& gap) { gap += by_m; });
+  return {MonotoneCubic<double>(volts, gaps)};
+}
+InverseSquareResponse<double> shifted(InverseSquareResponse<double> model, double by_m) {
+  model.b_m -= by_m;
+  return model;
+}
+PolynomialResponse<double> shifted(PolynomialResponse<double> model, double by_m) {
+  model.coefficient[0] += by_m;
+  return model;
+}
+
+/// The model with every signal so many times as strong.
+LinearResponse<double> amplified(LinearResponse<double> model, double gain) {
+  model.slope_m_per_v /= gain;
+  return model;
+}
+TableResponse<double> amplified(const TableResponse<double>& model, double gain) {
+  std::vector<double> volts(model.gap_over_volts.x().begin(), model.gap_over_volts.x().end());
+  std::ranges::for_each(volts, [&](double& signal) { signal *= gain; });
+  return {MonotoneCubic<double>(volts, model.gap_over_volts.y())};
+}
+InverseSquareResponse<double> amplified(InverseSquareResponse<double> model, double gain) {
+  model.a_v_m2 *= gain;
+  model.c_v *= gain;
+  return model;
+}
+PolynomialResponse<double> amplified(PolynomialResponse<double> model, double gain) {
+  double factor = 1;
+  for (double& coefficient : model.coefficient) {
+    coefficient *= factor;
+    factor /= gain;
+  }
+  model.volts_min *= gain;
+  model.volts_max *= gain;
+  return model;
+}
+
+Response<double> shifted(Response<double> response, double by_m) {
+  std::visit([&](const auto& model) { response.model = shifted(model, by_m); },
+             Response<double>(response).model);
+  response.nearest_m = std::max(0.0, response.nearest_m + by_m);
+  response.farthest_m += by_m;
+  response.peak_m = response.peak_m > 0 ? std::max(0.0, response.peak_m + by_m) : 0;
+  return response;
+}
+
+Response<double> amplified(Response<double> response, double gain) {
+  std::visit([&](const auto& model) { response.model = amplified(model, gain); },
+             Response<double>(response).model);
+  return response;
+}
+
+/// A number of the record and its sigma.
+struct Zero {
+  std::string name;
+  double value = 0;
+  double sigma = 0;
+};
+
+tl::expected<Zero, Error> apply(ZeroOf zero_of, const RigFile& rig, std::size_t sensor,
+                                const RestGap& rest, RigChanges& changes) {
+  const std::string& name = rig.sensor_names[sensor];
+  const Response<double>& response = rig.rig.responses[sensor];
+  const double off_m = rest.gap_m - rest.expected_m;
+  if (zero_of == ZeroOf::kHeight) {
+    Vector3<double> position = rig.rig.layout.position_m[sensor];
+    position.z() += off_m;
+    changes.positions_m[sensor] = position;
+    return Zero{name + " height_m", position.z(), rest.sigma_m};
+  }
+  if (zero_of == ZeroOf::kResponse) {
+    const auto* inverse = std::get_if<InverseSquareResponse<double>>(&response.model);
+    if (inverse != nullptr && inverse->b_m + off_m < 0) {
+      return failure(
+          fmt::format("sensor {}: a shift by {:.3f} mm takes the pole of its "
+                      "inverse_square to a gap above 0: use --zero height",
+                      name, -off_m / kMilli));
+    }
+    changes.responses[sensor] = shifted(response, -off_m);
+    return Zero{name + " gap_shift_m", -off_m, rest.sigma_m};
+  }
+  const double expected_v = response.volts(rest.expected_m);
+  const double gain = rest.mean.volts / expected_v;
+  if (!(gain > 0.1 && gain < 10)) {
+    return failure(
+        fmt::format("sensor {}: found {:.4f} V at rest, where its response has {:.4f}: "
+                    "no change of its light does that",
+                    name, rest.mean.volts, expected_v));
+  }
+  changes.responses[sensor] = amplified(response, gain);
+  return Zero{name + " gain", gain, rest.mean.standard_error_v() / std::abs(expected_v)};
+}
+
+/// What the rig's angles were at rest, before.
+std::string former_zero(const RigFile& rig, const std::vector<RestGap>& rests) {
+  std::vector<double> gaps;
+  std::ranges::transform(rests, std::back_inserter(gaps), &RestGap::gap_m);
+  const auto solved = GaussNewton<double>(rig.rig.layout).solve(gaps);
+  if (!solved) {
+    return "no angles fit the gaps that the rig as it was gives at rest";
+  }
+  const Angles<double> angles = angles_of(solved->slopes);
+  return fmt::format("the rig as it was gives theta1 = {:.3f}, theta2 = {:.3f} deg at rest",
+                     angles.theta1_rad * kDegPerRad, angles.theta2_rad * kDegPerRad);
+}
+
+}  // namespace
+
+tl::expected<Calibration, Error> calibrate_rest(const RigFile& rig,
+                                                const std::vector<SignalLog>& logs,
+                                                ZeroOf zero_of) {
+  Calibration result;
+  std::vector<RestGap> rests;
+  const auto count = static_cast<Eigen::Index>(rig.rig.layout.count);
+  result.record.method = "rest";
+  result.record.values.resize(count);
+  result.record.covariance = Eigen::MatrixXd::Zero(count, count);
+  double squares = 0;
+  for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
+    const auto rest = rest_gap(rig, logs, i);
+    if (!rest) {
+      return tl::unexpected(rest.error());
+    }
+    if (const auto still = require_still(rig, logs, i, *rest); !still) {
+      return tl::unexpected(still.error());
+    }
+    const auto zero = apply(zero_of, rig, i, *rest, result.changes);
+    if (!zero) {
+      return tl::unexpected(zero.error());
+    }
+    const auto at = static_cast<Eigen::Index>(i);
+    result.record.parameters.push_back(zero->name);
+    result.record.values[at] = zero->value;
+    result.record.covariance(at, at) = zero->sigma * zero->sigma;
+    const double slope = rig.rig.responses[i].slope_m_per_v(rest->mean.volts);
+    squares += std::pow(rest->mean.scatter_v * slope, 2);
+    result.notes.push_back(fmt::format(
+        "{}: {} samples, {:.5f} V, scatter {:.2f} mV; a gap of {:.4f} mm where the rig has {:.4f}, "
+        "{:+.1f} um",
+        rig.sensor_names[i], rest->mean.count, rest->mean.volts, rest->mean.scatter_v / kMilli,
+        rest->gap_m / kMilli, rest->expected_m / kMilli,
+        (rest->gap_m - rest->expected_m) / kMicro));
+    rests.push_back(*rest);
+  }
+  result.record.residual_m = std::sqrt(squares / static_cast<double>(count));
+  result.notes.push_back(former_zero(rig, rests));
+  const Rig<double> after = changed(rig.rig, result.changes);
+  for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
+    const double gap_m = DiscPlane<double>(Slopes<double>{}).gap_m(after.layout, i);
+    const GapRange range{std::max(nearest_readable_m(after.responses[i]), gap_m / 2), gap_m * 1.5};
+    for (Panel& panel : response_panels(rig.sensor_names[i], after.responses[i], range,
+                                        points_curve({gap_m}, {rests[i].mean.volts}))) {
+      result.figure.panels.push_back(std::move(panel));
+    }
+  }
+  return result;
+}
+
+}  // namespace penduline
