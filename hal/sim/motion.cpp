@@ -105,6 +105,19 @@ class ExactMotion final : public Motion {
   bool near_pole_ = false;
 };
 
+/// A pendulum that is held.
+class HeldMotion final : public Motion {
+ public:
+  explicit HeldMotion(const SwingStart& start)
+      : state_(swing_state({.theta_rad = start.theta_rad, .phi_rad = start.phi_rad})) {}
+
+  void advance_to(double /*t_s*/) override {}
+  [[nodiscard]] SwingState<double> state() const override { return state_; }
+
+ private:
+  SwingState<double> state_;
+};
+
 }  // namespace
 
 SwingState<double> swing_state(const SwingStart& start) {
@@ -129,6 +142,9 @@ std::unique_ptr<Motion> make_motion(Integrator integrator, const SwingStart& sta
                                     const Pendulum<double>& pendulum, double step_s) {
   if (integrator == Integrator::kDopri5) {
     return std::make_unique<ExactMotion>(start, pendulum);
+  }
+  if (integrator == Integrator::kHeld) {
+    return std::make_unique<HeldMotion>(start);
   }
   return std::make_unique<PaperMotion>(start, pendulum, step_s,
                                        integrator == Integrator::kSemiImplicit);

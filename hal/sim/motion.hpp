@@ -13,6 +13,7 @@ enum class Integrator {
   kEuler,         ///< the paper's Eqs. 16 to 19 in (theta, phi), as printed
   kSemiImplicit,  ///< the same with the updated velocities
   kDopri5,        ///< Dormand-Prince 5(4) in (theta1, theta2), to 1e-12
+  kHeld,          ///< none: a jig holds the pendulum where it starts
 };
 
 /// Where the swing starts, in the paper's coordinates: theta the tilt from the vertical, phi the

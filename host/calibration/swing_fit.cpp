@@ -151,9 +151,10 @@ class SwingProblem {
     constexpr double kAngle = 1e-3;
     const double omega = std::sqrt(pendulum.gravity_m_s2 / pendulum.length_m);
     const auto add = [&](const char* name, double start, double scale, double prior) {
-      unknowns_.push_back(
-          {{.name = fmt::format("{} {}", swing.name, name), .start = start, .scale = scale},
-           prior});
+      unknowns_.push_back({{.name = fmt::format("swing {} {}", first_of_swing_.size(), name),
+                            .start = start,
+                            .scale = scale},
+                           prior});
     };
     constexpr double kNone = std::numeric_limits<double>::infinity();
     if (swing.release) {

@@ -138,6 +138,9 @@ Completions next_of(const CLI::App& command, const std::vector<std::string>& typ
   }
   const auto positionals =
       command.get_options([](const CLI::Option* option) { return !option->nonpositional(); });
+  if (!positionals.empty() && positionals.back()->get_items_expected_max() > 1) {
+    arguments = std::min(arguments, positionals.size() - 1);  // the last may come many times
+  }
   return arguments < positionals.size() ? values_of(*positionals[arguments], devices)
                                         : options_of(command, typed);
 }
@@ -151,13 +154,22 @@ Completions complete(const CLI::App& program, const std::vector<std::string>& wo
   }
   Completions all;
   const std::string& current = words.back();
-  if (words.size() == 1) {
-    all = current.starts_with('-') ? options_of(program, {}) : names_of(commands(program));
-  }
-  for (const CLI::App* command : commands(program)) {
-    if (words.size() > 1 && command->get_name() == words.front()) {
-      all = next_of(*command, {words.begin() + 1, words.end() - 1}, current, devices);
+  // As far as the words are commands, each is one of the command before.
+  const CLI::App* command = &program;
+  std::size_t depth = 0;
+  for (; depth + 1 < words.size(); ++depth) {
+    const auto inner = commands(*command);
+    const auto named = std::ranges::find(inner, words[depth], &CLI::App::get_name);
+    if (named == inner.end()) {
+      break;
     }
+    command = *named;
+  }
+  if (commands(*command).empty()) {
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>(depth);
+    all = next_of(*command, {first, words.end() - 1}, current, devices);
+  } else if (depth + 1 == words.size()) {
+    all = current.starts_with('-') ? options_of(*command, {}) : names_of(commands(*command));
   }
   Completions fitting;
   std::ranges::copy_if(all, std::back_inserter(fitting), [&](const Completion& completion) {

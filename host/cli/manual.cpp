@@ -90,18 +90,29 @@ std::string list_of(const std::vector<const CLI::Option*>& options) {
   return list + ".El\n";
 }
 
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// "calibrate rest".
+std::string full_name(const CLI::App& command, const std::string& before) {
+  return before.empty() ? command.get_name() : before + ' ' + command.get_name();
+}
+
 /// The command's own name with what it cannot do without.
-std::string synopsis_of(const CLI::App& command) {
-  std::string synopsis = fmt::format(".Nm Cm {}", command.get_name());
+std::string synopsis_of(const CLI::App& command, const std::string& name) {
+  std::string synopsis = fmt::format(".Nm Cm {}", name);
   for (const CLI::Option* option : command.get_options()) {
     synopsis += option->get_required() ? heading_of(*option) : "";
   }
-  return synopsis + " Op Ar options\n";
+  return synopsis + (commands_of(command).empty() ? " Op Ar options\n" : " Ar command\n");
 }
 
-std::string section_of(const CLI::App& command) {
-  std::string page = fmt::format(".Ss {}\n.Bd -ragged -compact\n{}.Ed\n.Pp\n{}", command.get_name(),
-                                 synopsis_of(command), paragraphs(command.get_description() + '.'));
+std::string section_of(const CLI::App& command, const std::string& before) {
+  const std::string name = full_name(command, before);
+  std::string page =
+      fmt::format(".Ss {}\n.Bd -ragged -compact\n{}.Ed\n.Pp\n{}", name, synopsis_of(command, name),
+                  paragraphs(command.get_description() + '.'));
   for (const std::string& group : command.get_groups()) {
     const auto options = command.get_options([&](const CLI::Option* option) {
       return option->get_group() == group && !group.empty() && option != command.get_help_ptr();
@@ -111,15 +122,19 @@ std::string section_of(const CLI::App& command) {
       page += list_of(options);
     }
   }
-  return page + (command.get_footer().empty() ? "" : ".Pp\n" + paragraphs(command.get_footer()));
+  page += command.get_footer().empty() ? "" : ".Pp\n" + paragraphs(command.get_footer());
+  for (const CLI::App* inner : commands_of(command)) {
+    page += section_of(*inner, name);
+  }
+  return page;
 }
 
 }  // namespace
 
 std::string manual_of_commands(const CLI::App& program) {
   std::string page;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    page += section_of(*command);
+  for (const CLI::App* command : commands_of(program)) {
+    page += section_of(*command, "");
   }
   return page;
 }

@@ -71,13 +71,18 @@ void add_start_options(CLI::App& command, SimulationOptions& options) {
       ->check(number_within(-kFastestTurn, kFastestTurn))
       ->type_name("RAD/S")
       ->group(group);
-  command
-      .add_option("--integrator", options.settings.integrator,
-                  "dopri5: exact; euler: the paper's Eqs. 12 to 19 as printed, one step a sample;\n"
-                  "semi-implicit: the same with updated velocities")
-      ->transform(CLI::CheckedTransformer(integrators).description(""))
-      ->type_name("dopri5|euler|semi-implicit")
-      ->default_str("dopri5")
+  CLI::Option* integrator =
+      command
+          .add_option(
+              "--integrator", options.settings.integrator,
+              "dopri5: exact; euler: the paper's Eqs. 12 to 19 as printed, one step a sample;\n"
+              "semi-implicit: the same with updated velocities")
+          ->transform(CLI::CheckedTransformer(integrators).description(""))
+          ->type_name("dopri5|euler|semi-implicit")
+          ->default_str("dopri5")
+          ->group(group);
+  command.add_flag("--held", options.held, "The pendulum is held at its start, as by a jig")
+      ->excludes(integrator)
       ->group(group);
 }
 
@@ -167,6 +172,9 @@ SimulationSettings simulation_settings(const SimulationOptions& options, const R
     throw CLI::ValidationError("--theta-deg",
                                "the paper's Eqs. 12 to 19 have no answer at 0 deg, expected more; "
                                "--integrator dopri5 has one");
+  }
+  if (options.held) {
+    settings.integrator = Integrator::kHeld;
   }
   settings.emitter_switched = !options.emitter_always_lit;
   if (options.ideal) {

@@ -20,6 +20,7 @@ struct SimulationOptions {
   std::optional<double> omega_rad_s;
   std::optional<double> psi_rad_s;
   std::optional<double> seconds;
+  bool held = false;
   bool ideal = false;
   bool emitter_always_lit = false;
   SimulationSettings settings;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which numbers of the geometry are free, and what they mean for a gap.
+#include "host/calibration/geometry_numbers.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace penduline {
+namespace {
+
+/// How far a ruler may be off.
+constexpr double kPrior_m = 3e-3;
+constexpr double kScale_m = 1e-4;
+
+}  // namespace
+
+GeometryNumbers::GeometryNumbers(const RigFile& rig) {
+  constexpr double kCoarsestOffset_m = 0.5e-3;
+  constexpr double kCoarsestPlace_m = 0.3e-3;
+  constexpr double kCoarsestHeight_m = 0.1e-3;
+  constexpr std::array<const char*, 3> kAxes = {"x_m", "y_m", "height_m"};
+  const SensorLayout<double>& layout = rig.rig.layout;
+  numbers_.push_back(
+      {.name = "disc offset_m", .start_m = layout.disc_offset_m, .coarsest_m = kCoarsestOffset_m});
+  for (std::size_t i = 0; i < layout.count; ++i) {
+    const Vector3<double>& position = layout.position_m[i];
+    // Across the sensor's own direction first: a turn of everything about the vertical shows
+    // nowhere, and where it is held is a choice.
+    const Eigen::Index along = std::abs(position.y()) > std::abs(position.x()) ? 1 : 0;
+    for (const Eigen::Index axis : {1 - along, along}) {
+      of_sensor_[i][static_cast<std::size_t>(axis)] = numbers_.size();
+      numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[static_cast<std::size_t>(axis)],
+                          .start_m = position[axis],
+                          .coarsest_m = kCoarsestPlace_m,
+                          .sensor = i,
+                          .axis = axis});
+    }
+  }
+  for (std::size_t i = 0; i < layout.count; ++i) {
+    of_sensor_[i][2] = numbers_.size();
+    numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[2],
+                        .start_m = layout.position_m[i].z(),
+                        .coarsest_m = kCoarsestHeight_m,
+                        .sensor = i,
+                        .axis = 2});
+  }
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    free_.push_back(i);
+  }
+  number_places();
+}
+
+void GeometryNumbers::number_places() {
+  place_.assign(numbers_.size(), std::nullopt);
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    place_[free_[i]] = i;
+  }
+}
+
+std::vector<Unknown> GeometryNumbers::unknowns() const {
+  std::vector<Unknown> unknowns;
+  for (const std::size_t i : free_) {
+    unknowns.push_back(
+        {{.name = numbers_[i].name, .start = numbers_[i].start_m, .scale = kScale_m}, kPrior_m});
+  }
+  return unknowns;
+}
+
+double GeometryNumbers::gap_m(std::span<const double> numbers, std::size_t sensor,
+                              const DiscPlane<double>& plane) const {
+  const auto& [x, y, height] = of_sensor_[sensor];
+  const double offset_m = value(numbers, 0);
+  return value(numbers, height) + offset_m -
+         plane.rise_m(value(numbers, x), value(numbers, y), offset_m);
+}
+
+bool GeometryNumbers::hold_undetermined(std::span<const double> sigmas) {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    const Number& number = numbers_[free_[i]];
+    if (!(sigmas[i] <= number.coarsest_m)) {
+      held_.push_back(number.name);
+      free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(i));
+      number_places();
+      return true;
+    }
+  }
+  return false;
+}
+
+RigChanges GeometryNumbers::changes(std::span<const double> numbers) const {
+  RigChanges changes;
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    const Number& number = numbers_[free_[i]];
+    if (!number.sensor) {
+      changes.disc_offset_m = numbers[i];
+      continue;
+    }
+    const auto& of_sensor = of_sensor_[*number.sensor];
+    changes.positions_m[*number.sensor] = {
+        value(numbers, of_sensor[0]), value(numbers, of_sensor[1]), value(numbers, of_sensor[2])};
+  }
+  return changes;
+}
+
+}  // namespace penduline
