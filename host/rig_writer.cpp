@@ -4,12 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "hal/replay/line_reader.hpp"
+#include "hal/replay/toml_text.hpp"
 #include "host/output/text_file.hpp"
 #include "host/rig_file.hpp"
 
@@ -64,32 +68,88 @@ toml::table response_table(const Response<double>& response) {
   if (response.peak_m > 0) {
     table.insert("peak_m", rounded(response.peak_m));
   }
-  table.is_inline(true);
   return table;
 }
 
-/// The sections in the order in which one reads them, whatever else there is, the record last.
-std::string printed(const toml::table& rig) {
-  constexpr std::array<std::string_view, 6> kOrder = {"pendulum", "disc", "sensor",
-                                                      "filter",   "gpio", "calibration"};
-  const auto rank = [&](std::string_view key) {
-    const auto* const at = std::ranges::find(kOrder, key);
-    return key == kOrder.back() ? kOrder.size() + 1 : static_cast<std::size_t>(at - kOrder.begin());
-  };
-  std::ostringstream text;
-  text << "# Written by 'penduline calibrate'; [calibration] says from what.\n";
-  for (std::size_t wanted = 0; wanted <= kOrder.size() + 1; ++wanted) {
-    for (const auto& [key, node] : rig) {
-      if (rank(key.str()) == wanted) {
-        toml::table section;
-        section.insert(key, node);
-        text << section << "\n\n";
-      }
+/// Keys in the order in which one reads them, then all others.
+std::vector<std::string> ordered_keys(const toml::table& table,
+                                      std::span<const std::string_view> first) {
+  std::vector<std::string> keys;
+  for (const std::string_view key : first) {
+    if (table.contains(key)) {
+      keys.emplace_back(key);
     }
   }
-  std::string result = text.str();
-  result.erase(result.find_last_not_of('\n') + 2);
-  return result;
+  for (const auto& [key, node] : table) {
+    if (std::ranges::find(first, key.str()) == first.end()) {
+      keys.emplace_back(key.str());
+    }
+  }
+  return keys;
+}
+
+constexpr std::array<std::string_view, 11> kFirstKeys = {
+    "name",       "position_m", "response",   "model",  "method", "date",
+    "recordings", "residual_m", "parameters", "values", "sigmas"};
+
+/// A key as it is, or in quotes where it is not a bare one.
+std::string key_text(const std::string& key) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  return bare ? key : toml_quoted(key);
+}
+
+/// Any value. An array of arrays has a line for each.
+std::string value_text(const toml::node& node) {
+  std::string text;
+  if (const auto* array = node.as_array()) {
+    for (const toml::node& element : *array) {
+      text += text.empty() ? "" : element.is_array() ? ",\n  " : ", ";
+      text += value_text(element);
+    }
+    return '[' + text + ']';
+  }
+  if (const auto* table = node.as_table()) {
+    for (const std::string& key : ordered_keys(*table, kFirstKeys)) {
+      text += fmt::format("{}{} = {}", text.empty() ? " " : ", ", key_text(key),
+                          value_text(*table->get(key)));
+    }
+    return '{' + text + " }";
+  }
+  const auto* string = node.as_string();
+  return string != nullptr ? toml_quoted(string->get()) : toml_text(node);
+}
+
+/// One section, its tables within on one line each.
+std::string section_text(const std::string& header, const toml::table& table) {
+  std::string text = header + '\n';
+  for (const std::string& key : ordered_keys(table, kFirstKeys)) {
+    text += fmt::format("{} = {}\n", key_text(key), value_text(*table.get(key)));
+  }
+  return text;
+}
+
+std::string printed(const toml::table& rig) {
+  constexpr std::array<std::string_view, 5> kFirst = {"pendulum", "disc", "sensor", "filter",
+                                                      "gpio"};
+  std::vector<std::string> keys = ordered_keys(rig, kFirst);
+  std::ranges::stable_partition(keys, [](const std::string& key) { return key != "calibration"; });
+  std::string plain;  // keys outside any section must come first
+  std::string sections;
+  for (const std::string& key : keys) {
+    const toml::node& node = *rig.get(key);
+    if (node.is_table()) {
+      sections += '\n' + section_text(fmt::format("[{}]", key_text(key)), *node.as_table());
+    } else if (node.is_array_of_tables()) {
+      for (const toml::node& element : *node.as_array()) {
+        sections += '\n' + section_text(fmt::format("[[{}]]", key_text(key)), *element.as_table());
+      }
+    } else {
+      plain += fmt::format("{} = {}\n", key_text(key), value_text(node));
+    }
+  }
+  return "# Written by 'penduline calibrate'; [calibration] says from what.\n" + plain + sections;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "host/fit/swing_path.hpp"
 
@@ -249,18 +249,54 @@ tl::expected<Fit, Error> fit_from(SwingProblem& problem, const Eigen::VectorXd& 
                            });
 }
 
-/// The noise that is left of each sensor's signal becomes what its residuals are divided by.
-void learn_noise(SwingProblem& problem, const Eigen::VectorXd& values, std::size_t sensors) {
-  constexpr double kLeast_v = 20e-6;
-  std::array<double, kMaxSensors> squares{};
-  std::array<double, kMaxSensors> counts{};
-  for (const Place& place : problem.places()) {
-    const double misfit = problem.misfit_v(values, place);
-    squares[place.sensor] += misfit * misfit;
-    counts[place.sensor] += 1;
+/// What is left of one sensor's signals: noise, and what the model itself is wrong by.
+class Leftover {
+ public:
+  void take(double gap_m, double misfit_v) { misfits_.emplace_back(gap_m, misfit_v); }
+
+  /// Sigma for each signal, such that a mean over signals of about one gap is as uncertain as it
+  /// is: what the model is wrong by there no number of samples takes away.
+  [[nodiscard]] double sigma_v() const {
+    constexpr double kLeast_v = 20e-6;
+    std::array<double, kBins> sums{};
+    std::array<double, kBins> counts{};
+    double squares = 0;
+    const auto [nearest, farthest] = std::ranges::minmax_element(misfits_);
+    for (const auto& [gap_m, misfit_v] : misfits_) {
+      const double share = (gap_m - nearest->first) / (farthest->first - nearest->first);
+      const auto bin = static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) * kBins);
+      sums[bin] += misfit_v;
+      counts[bin] += 1;
+      squares += misfit_v * misfit_v;
+    }
+    double mean_squares = 0;  // of the bins' means, each as often as it has signals
+    for (std::size_t i = 0; i < kBins; ++i) {
+      mean_squares += counts[i] > 0 ? sums[i] * sums[i] / counts[i] : 0;
+    }
+    const auto count = static_cast<double>(misfits_.size());
+    const double a_bin = count / kBins;
+    // Noise alone leaves kBins times its variance in `mean_squares`.
+    const double noise = std::max(0.0, squares - mean_squares) / std::max(1.0, count - kBins);
+    const double wrong = std::max(0.0, mean_squares - kBins * noise) / count;
+    return std::max(kLeast_v, std::sqrt(noise + a_bin * wrong));
   }
-  for (std::size_t i = 0; i < sensors; ++i) {
-    problem.set_sigma_v(i, std::max(kLeast_v, std::sqrt(squares[i] / std::max(1.0, counts[i]))));
+  [[nodiscard]] bool empty() const { return misfits_.empty(); }
+
+ private:
+  static constexpr std::size_t kBins = 16;
+  std::vector<std::pair<double, double>> misfits_;
+};
+
+/// What is left of each sensor's signal becomes what its residuals are divided by.
+void learn_noise(SwingProblem& problem, const Eigen::VectorXd& values) {
+  std::array<Leftover, kMaxSensors> left;
+  for (const Place& place : problem.places()) {
+    left[place.sensor].take(problem.gap_m(values, place), problem.misfit_v(values, place));
+  }
+  for (std::size_t i = 0; i < kMaxSensors; ++i) {
+    if (!left[i].empty()) {
+      problem.set_sigma_v(i, left[i].sigma_v());
+    }
   }
 }
 
@@ -339,11 +375,13 @@ tl::expected<SwingFit, Error> fit_swings(const Pendulum<double>& pendulum, doubl
       ++last_rounds;
     }
     if (last_rounds < 2) {
-      learn_noise(problem, values, sensors.sensor_count());
+      learn_noise(problem, values);
       window_s = std::min(window_s * kGrowth, std::max(end_s, window_s));
       result.left_out = problem.choose(window_s, &values);
     }
   }
+  // The sigmas were learned from what is left, and hold more than its scatter.
+  result.fit.covariance /= std::min(1.0, result.fit.scatter * result.fit.scatter);
   tell(problem, swings, sensors, result);
   const double omega = std::sqrt(pendulum.gravity_m_s2 / values[0]);
   for (std::size_t i = 0; i < swings.size(); ++i) {
