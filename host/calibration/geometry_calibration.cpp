@@ -178,6 +178,8 @@ tl::expected<Calibration, Error> calibrate_geometry(const RigFile& rig,
     if (!fit) {
       return tl::unexpected(fit.error());
     }
+    // The priors among the residuals are no measurements that could show how small the noise is.
+    fit->covariance /= std::min(1.0, fit->scatter * fit->scatter);
   } while (numbers.hold_undetermined(sigmas_of(*fit, 0, numbers.free_count())));
   const std::span<const double> found{fit->values.data(), numbers.free_count()};
   std::array<std::vector<UsedSignal>, kMaxSensors> used;

@@ -40,15 +40,19 @@ std::size_t distinct_gaps(const std::vector<SensorPoint>& points) {
   return count;
 }
 
-/// The gap of the strongest signal where points nearer than it, more than one can be by chance, are
-/// weaker; else what the rig knows.
+/// The gap of the peak: where points nearer than the strongest are clearly weaker, between that one
+/// and the next, as near to what the rig knows as can be; else what the rig knows.
 double peak_of(const std::vector<SensorPoint>& points, double known_m) {
   constexpr double kWeaker = 0.98;
   const auto strongest = std::ranges::max_element(points, {}, &SensorPoint::volts);
   const bool folds = std::any_of(points.begin(), strongest, [&](const SensorPoint& point) {
     return point.volts < kWeaker * strongest->volts;
   });
-  return folds ? strongest->gap_m : known_m;
+  if (!folds) {
+    return known_m;
+  }
+  const auto next = strongest + 1 == points.end() ? strongest : strongest + 1;
+  return std::clamp(known_m, strongest->gap_m, next->gap_m);
 }
 
 /// Leaves out what is too near to the peak to tell its sides apart.

@@ -63,6 +63,15 @@ inline constexpr double kRadPerDeg = std::numbers::pi / 180;
   return settings;
 }
 
+/// The swing that docs/calibration.md advises: an ellipse of 12 by 5 deg.
+[[nodiscard]] inline SimulationSettings ellipse(double seconds, std::uint64_t seed) {
+  return settings_for({.theta_rad = 12 * kRadPerDeg,
+                       .phi_rad = 30 * kRadPerDeg,
+                       .omega_rad_s = 0,
+                       .psi_rad_s = 2.5},
+                      seconds, seed);
+}
+
 /// A recording of it.
 [[nodiscard]] inline SignalLog recorded(const Rig<double>& rig,
                                         const SimulationSettings& settings) {

@@ -203,4 +203,12 @@ TEST_CASE("A release from a ten-millionth of a degree keeps its energy", "[sim]"
   CHECK(std::isinf(blown_up_at_s(Integrator::kDopri5, {.theta_rad = 1.7e-9, .phi_rad = 0.8}, 10)));
 }
 
+TEST_CASE("A pendulum that is held stays where it starts", "[sim]") {
+  const auto motion =
+      make_motion(Integrator::kHeld, {.theta_rad = 0.2, .omega_rad_s = 3}, {}, 0.05);
+  motion->advance_to(10);
+  CHECK(motion->state().theta2_rad == Approx(-0.2));
+  CHECK(motion->state().omega2_rad_s == 0);
+}
+
 }  // namespace

@@ -52,6 +52,17 @@ TEST_CASE("Commands come first", "[completion]") {
   CHECK(Program().words({}).empty());
 }
 
+TEST_CASE("A command's own commands come behind it, then their options and files", "[completion]") {
+  Program program;
+  add_calibrate_command(program.app, program.status);
+  CHECK(program.words({"calibrate", ""}) == Words{"static", "rest", "swing", "geometry"});
+  CHECK(program.words({"calibrate", "re"}) == Words{"rest"});
+  CHECK(program.words({"calibrate", "rest", "--ze"}) == Words{"--zero"});
+  CHECK(program.words({"calibrate", "rest", "--zero", ""}) == Words{"height", "response", "gain"});
+  CHECK(program.words({"calibrate", "swing", ""}) == Words{"FILE"});
+  CHECK(program.words({"calibrate", "swing", "a.csv", ""}) == Words{"FILE"});
+}
+
 TEST_CASE("A dash is followed by the options that may still come", "[completion]") {
   CHECK(Program().words({"run", "--fs"}) == Words{"--fsync"});
   CHECK(Program().words({"run", "--fsync", "10s", "--fs"}).empty());

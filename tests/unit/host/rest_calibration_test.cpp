@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/calibration/rest_calibration.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/accuracy/simulated_unit.hpp"
+
+using namespace penduline;
+using namespace penduline::test;
+
+namespace {
+
+/// The typical rig whose first sensor is mounted 0.2 mm higher.
+Rig<double> raised() {
+  Rig<double> rig = typical_rig().rig;
+  rig.layout.position_m[0].z() += 0.2e-3;
+  return rig;
+}
+
+SignalLog still(const Rig<double>& rig, double theta_deg = 0) {
+  return recorded(rig, settings_for({.theta_rad = theta_deg * kRadPerDeg}, 10, 1));
+}
+
+std::string error_of(const SignalLog& log) {
+  const auto result = calibrate_rest(typical_rig(), {log}, ZeroOf::kHeight);
+  return result ? "" : result.error().message;
+}
+
+/// What the changed rig reads at rest, in degrees.
+double rest_deg(const RigChanges& changes) {
+  const Rig<double> rig = changed(typical_rig().rig, changes);
+  return rms_deg(Pipeline<double>(rig, SampledRig(raised(), {}).acquisition()), raised(),
+                 settings_for({}, 5, 2));
+}
+
+}  // namespace
+
+TEST_CASE("A rest zeroes the angles, whatever is said to have changed", "[calibration]") {
+  CHECK(rest_deg({}) > 0.3);
+  for (const ZeroOf zero_of : {ZeroOf::kHeight, ZeroOf::kResponse, ZeroOf::kGain}) {
+    const auto result = calibrate_rest(typical_rig(), {still(raised())}, zero_of);
+    REQUIRE(result);
+    CHECK(rest_deg(result->changes) < 0.03);
+  }
+}
+
+TEST_CASE("A rest finds a sensor's height", "[calibration]") {
+  const auto result = calibrate_rest(typical_rig(), {still(raised())}, ZeroOf::kHeight);
+  REQUIRE(result);
+  CHECK(result->changes.positions_m[0]->z() == Approx(-0.0108).margin(2e-6));
+  CHECK(result->changes.positions_m[1]->z() == Approx(-0.011).margin(2e-6));
+  CHECK(result->record.parameters == std::vector<std::string>{"Sx height_m", "Sy height_m"});
+  CHECK(result->record.covariance(0, 0) > 0);
+}
+
+TEST_CASE("A pendulum that swings a little is not at rest", "[calibration]") {
+  CHECK(
+      error_of(still(raised(), 0.2))
+          .starts_with("rec.csv: the pendulum is not still: sensor Sx sees it move (RMS) by 0.1"));
+}
+
+TEST_CASE("Sensors that drift are not at rest", "[calibration]") {
+  SignalLog log = still(raised());
+  for (std::size_t i = 0; i < log.t_s.size(); ++i) {
+    log.volts[i][0] *= 1 + 0.002 * static_cast<double>(i) / static_cast<double>(log.t_s.size());
+  }
+  CHECK(error_of(log).find("let the sensors warm up") != std::string::npos);
+}
+
+TEST_CASE("A few samples are no rest", "[calibration]") {
+  SignalLog log = still(raised());
+  log.t_s.resize(19);
+  log.volts.resize(19);
+  CHECK(error_of(log) == "rec.csv: found 19 samples of sensor Sx, expected 20 or more");
+}
+
+TEST_CASE("A signal that the response does not have is no rest of this rig", "[calibration]") {
+  SignalLog log = still(raised());
+  for (auto& volts : log.volts) {
+    volts[1] = 0.001;
+  }
+  CHECK(error_of(log).starts_with("rec.csv: sensor Sy: found 0.0010 V, which is outside"));
+}
