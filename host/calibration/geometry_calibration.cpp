@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 
 #include "common/closed_form.hpp"
 #include "host/calibration/geometry_numbers.hpp"
@@ -82,19 +82,19 @@ Panel residual_panel(const std::string& sensor, const std::vector<UsedSignal>& u
 tl::expected<Calibration, Error> concluded(const RigFile& rig, const GeometryNumbers& numbers,
                                            std::span<const double> found, double residual_m,
                                            Calibration result) {
-  if (numbers.free_count() == 0) {
-    return failure(
-        fmt::format("the data tell nothing of the geometry: not determined are {}; "
-                    "expected tilts on all sides",
-                    fmt::join(numbers.held(), ", ")));
-  }
   if (residual_m > kMostResidual_m) {
     return failure(
         fmt::format("the best geometry misses the gaps by {:.2f} mm RMS, expected {:.1f} "
                     "mm or less: calibrate the responses by known gaps first",
                     residual_m / kMilli, kMostResidual_m / kMilli));
   }
-  result.changes = numbers.changes(found);
+  if (numbers.free_count() == 0) {
+    return failure(
+        fmt::format("the data tell nothing of the geometry: not determined are {}; "
+                    "expected tilts on all sides",
+                    fmt::join(numbers.held(), ", ")));
+  }
+  result.changes = numbers.changes(found, rig.rig.layout.count);
   if (!determines_tilt(changed(rig.rig, result.changes).layout)) {
     return failure("the sensors come to lie on one line through the pivot, expected two sides");
   }

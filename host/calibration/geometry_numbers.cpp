@@ -17,8 +17,8 @@ constexpr double kScale_m = 1e-4;
 GeometryNumbers::GeometryNumbers(const RigFile& rig) {
   constexpr double kCoarsestOffset_m = 0.5e-3;
   constexpr double kCoarsestPlace_m = 0.3e-3;
-  constexpr double kCoarsestHeight_m = 0.1e-3;
-  constexpr std::array<const char*, 3> kAxes = {"x_m", "y_m", "height_m"};
+  constexpr double kCoarsestRest_m = 0.1e-3;
+  constexpr std::array<const char*, 3> kAxes = {"x_m", "y_m", "rest_gap_m"};
   const SensorLayout<double>& layout = rig.rig.layout;
   numbers_.push_back(
       {.name = "disc offset_m", .start_m = layout.disc_offset_m, .coarsest_m = kCoarsestOffset_m});
@@ -31,18 +31,14 @@ GeometryNumbers::GeometryNumbers(const RigFile& rig) {
       of_sensor_[i][static_cast<std::size_t>(axis)] = numbers_.size();
       numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[static_cast<std::size_t>(axis)],
                           .start_m = position[axis],
-                          .coarsest_m = kCoarsestPlace_m,
-                          .sensor = i,
-                          .axis = axis});
+                          .coarsest_m = kCoarsestPlace_m});
     }
   }
   for (std::size_t i = 0; i < layout.count; ++i) {
     of_sensor_[i][2] = numbers_.size();
     numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[2],
-                        .start_m = layout.position_m[i].z(),
-                        .coarsest_m = kCoarsestHeight_m,
-                        .sensor = i,
-                        .axis = 2});
+                        .start_m = layout.position_m[i].z() + layout.disc_offset_m,
+                        .coarsest_m = kCoarsestRest_m});
   }
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     free_.push_back(i);
@@ -68,10 +64,9 @@ std::vector<Unknown> GeometryNumbers::unknowns() const {
 
 double GeometryNumbers::gap_m(std::span<const double> numbers, std::size_t sensor,
                               const DiscPlane<double>& plane) const {
-  const auto& [x, y, height] = of_sensor_[sensor];
-  const double offset_m = value(numbers, 0);
-  return value(numbers, height) + offset_m -
-         plane.rise_m(value(numbers, x), value(numbers, y), offset_m);
+  const auto& [x, y, rest] = of_sensor_[sensor];
+  return value(numbers, rest) -
+         plane.rise_m(value(numbers, x), value(numbers, y), value(numbers, 0));
 }
 
 bool GeometryNumbers::hold_undetermined(std::span<const double> sigmas) {
@@ -87,17 +82,19 @@ bool GeometryNumbers::hold_undetermined(std::span<const double> sigmas) {
   return false;
 }
 
-RigChanges GeometryNumbers::changes(std::span<const double> numbers) const {
+RigChanges GeometryNumbers::changes(std::span<const double> numbers,
+                                    std::size_t sensor_count) const {
   RigChanges changes;
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    const Number& number = numbers_[free_[i]];
-    if (!number.sensor) {
-      changes.disc_offset_m = numbers[i];
-      continue;
+  const double offset_m = value(numbers, 0);
+  if (place_[0]) {
+    changes.disc_offset_m = offset_m;
+  }
+  for (std::size_t i = 0; i < sensor_count; ++i) {
+    const auto& [x, y, rest] = of_sensor_[i];
+    if (place_[0] || place_[x] || place_[y] || place_[rest]) {
+      changes.positions_m[i] = {value(numbers, x), value(numbers, y),
+                                value(numbers, rest) - offset_m};
     }
-    const auto& of_sensor = of_sensor_[*number.sensor];
-    changes.positions_m[*number.sensor] = {
-        value(numbers, of_sensor[0]), value(numbers, of_sensor[1]), value(numbers, of_sensor[2])};
   }
   return changes;
 }

@@ -15,7 +15,8 @@
 
 namespace penduline {
 
-/// The disc's offset, and of each sensor x, y and height: free, or held where the rig has them.
+/// The disc's offset, and of each sensor x, y and its gap at rest, which with the offset is its
+/// height: free, or held where the rig has them.
 class GeometryNumbers {
  public:
   explicit GeometryNumbers(const RigFile& rig);
@@ -30,18 +31,16 @@ class GeometryNumbers {
                              const DiscPlane<double>& plane) const;
 
   /// Holds the first number whose sigma says that the data do not tell it: offset first, then the
-  /// places, then the heights, which a rest tells best. False where there is none.
+  /// places, then the gaps at rest, which all data tell best. False where there is none.
   bool hold_undetermined(std::span<const double> sigmas);
 
-  [[nodiscard]] RigChanges changes(std::span<const double> numbers) const;
+  [[nodiscard]] RigChanges changes(std::span<const double> numbers, std::size_t sensor_count) const;
 
  private:
   struct Number {
     std::string name;
     double start_m = 0;
-    double coarsest_m = 0;                ///< sigma above which it stays as it is
-    std::optional<std::size_t> sensor{};  ///< none: the disc's offset
-    Eigen::Index axis = 0;
+    double coarsest_m = 0;  ///< sigma above which it stays as it is
   };
 
   [[nodiscard]] double value(std::span<const double> numbers, std::size_t number) const {

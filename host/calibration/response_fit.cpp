@@ -84,9 +84,6 @@ tl::expected<Weighed, Error> weigh(std::vector<SensorPoint> points, std::size_t 
                                weighed.range.nearest_m / kMilli, weighed.range.farthest_m / kMilli,
                                kNarrowest_m / kMilli));
   }
-  if (std::ranges::any_of(weighed.points, [](const auto& point) { return !(point.volts > 0); })) {
-    return failure("found a signal not above 0 V, expected the emitter's light in every point");
-  }
   std::vector<double> gaps;
   std::vector<double> signals;
   for (const SensorPoint& point : weighed.points) {
@@ -102,11 +99,11 @@ tl::expected<Weighed, Error> weigh(std::vector<SensorPoint> points, std::size_t 
   return weighed;
 }
 
-/// Akaike's criterion, corrected for few points: what one number more must gain.
+/// Akaike's criterion for known sigmas, corrected for few points: what one number more must gain.
 double akaike(double squares, std::size_t points, std::size_t numbers) {
   const auto n = static_cast<double>(points);
-  const auto k = static_cast<double>(numbers + 1);
-  return n - k - 1 > 0 ? n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1)
+  const auto k = static_cast<double>(numbers);
+  return n - k - 1 > 0 ? squares + 2 * k + 2 * k * (k + 1) / (n - k - 1)
                        : std::numeric_limits<double>::infinity();
 }
 
@@ -327,6 +324,11 @@ tl::expected<ResponseFit, Error> fit_response(std::vector<SensorPoint> points, R
   };
   if (points.empty()) {
     return failure(fmt::format("sensor {}: found no points of it", name));
+  }
+  if (std::ranges::any_of(points, [](const auto& point) { return !(point.volts > 0); })) {
+    return failure(fmt::format(
+        "sensor {}: found a signal not above 0 V, expected the emitter's light in every point",
+        name));
   }
   ResponseFit result;
   std::ranges::sort(points, {}, &SensorPoint::gap_m);

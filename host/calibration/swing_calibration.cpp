@@ -105,6 +105,28 @@ tl::expected<std::array<double, kMaxSensors>, Error> gains(const RigFile& rig,
   return gain;
 }
 
+/// Refuses swings that go so near to a sensor that hardly a signal tells a gap.
+tl::expected<void, Error> require_beyond_fold(const RigFile& rig,
+                                              const std::vector<SwingData>& swings) {
+  for (const SwingData& swing : swings) {
+    for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
+      const auto doubtful = std::ranges::count_if(
+          swing.doubtful, [&](const std::array<bool, kMaxSensors>& of) { return of[i]; });
+      const double share =
+          static_cast<double>(doubtful) / static_cast<double>(swing.doubtful.size());
+      if (share > kMostLeftOut) {
+        return failure(fmt::format(
+            "{}: sensor {}: {:.0f} % of the samples are at the fold of its response or beside it, "
+            "nearer than {:.2f} mm, or unreadable, expected {:.0f} % or less: swing less far, or "
+            "mount it higher",
+            swing.name, rig.sensor_names[i], share * 100,
+            nearest_readable_m(rig.rig.responses[i]) / kMilli, kMostLeftOut * 100));
+      }
+    }
+  }
+  return {};
+}
+
 /// The gaps over which the sensors see the disc swing, by the first guess.
 std::vector<GapRange> ranges_of(const RigFile& rig, const std::vector<SwingData>& swings) {
   std::vector<GapRange> ranges;
@@ -238,6 +260,9 @@ tl::expected<Calibration, Error> calibrate_swing(const RigFile& rig,
   const auto swings = swing_data(logs, rig.rig, *gain, options.release);
   if (!swings) {
     return tl::unexpected(swings.error());
+  }
+  if (const auto beyond = require_beyond_fold(rig, *swings); !beyond) {
+    return tl::unexpected(beyond.error());
   }
   const ResponsesUnknown model(rig, options.curve, ranges_of(rig, *swings), *gain);
   const auto fit =

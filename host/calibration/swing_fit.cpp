@@ -376,7 +376,7 @@ tl::expected<SwingFit, Error> fit_swings(const Pendulum<double>& pendulum, doubl
     }
     if (last_rounds < 2) {
       learn_noise(problem, values);
-      window_s = std::min(window_s * kGrowth, std::max(end_s, window_s));
+      window_s = window_s * kGrowth > end_s / 2 ? std::max(end_s, window_s) : window_s * kGrowth;
       result.left_out = problem.choose(window_s, &values);
     }
   }

@@ -164,6 +164,13 @@ bool polish(const ScaledProblem& problem, const std::vector<std::size_t>& held, 
   return false;
 }
 
+/// Whether no parameter has a bound.
+bool is_free(const std::vector<FitParameter>& parameters) {
+  return std::ranges::none_of(parameters, [](const FitParameter& parameter) {
+    return std::isfinite(parameter.low) || std::isfinite(parameter.high);
+  });
+}
+
 }  // namespace
 
 double Fit::sigma(std::size_t parameter) const {
@@ -182,12 +189,16 @@ tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& para
   if (!problem.residuals(problem.of_each(&FitParameter::start)).allFinite()) {
     return failure("the fit's first guess has no answer");
   }
-  Eigen::VectorXd at = search(problem);
   Fit fit;
-  fit.at_bound = held_at_bounds(problem, at);
   Linearized here;
-  if (!polish(problem, fit.at_bound, at, here)) {
-    return failure("the fit found no minimum: the model does not describe these data");
+  Eigen::VectorXd at = problem.of_each(&FitParameter::start);
+  // From a start that is near, Gauss-Newton is there in a few steps; within bounds it may be stuck.
+  if (!is_free(parameters) || !polish(problem, fit.at_bound, at, here)) {
+    at = search(problem);
+    fit.at_bound = held_at_bounds(problem, at);
+    if (!polish(problem, fit.at_bound, at, here)) {
+      return failure("the fit found no minimum: the model does not describe these data");
+    }
   }
   fit.residuals = here.residuals;
   const auto freedom = std::max<std::size_t>(residual_count - parameters.size(), 1);

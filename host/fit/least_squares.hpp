@@ -43,9 +43,10 @@ struct Fit {
 };
 
 /// Searches from the start within the bounds (NLopt's SLSQP on scaled parameters), then goes to the
-/// minimum itself by Gauss-Newton steps. Jacobians are central differences of a ten-thousandth of
-/// the scale, so `residuals` must be smooth there. Fails where there are fewer residuals than
-/// parameters, where the start has no answer, and where no minimum is reached.
+/// minimum itself by Gauss-Newton steps; without any bounds by these alone where they get there.
+/// Jacobians are central differences of a ten-thousandth of the scale, so `residuals` must be
+/// smooth there. Fails where there are fewer residuals than parameters, where the start has no
+/// answer, and where no minimum is reached.
 [[nodiscard]] tl::expected<Fit, Error> fit_least_squares(
     const std::vector<FitParameter>& parameters, std::size_t residual_count,
     const FitResiduals& residuals);
