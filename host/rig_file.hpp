@@ -20,7 +20,7 @@ struct RigFile {
   std::vector<std::string> sensor_names;
   RigLines lines;
   std::optional<CalibrationRecord> calibration{};  ///< where the numbers come from, if it says so
-  std::vector<std::string> complaints;  ///< unknown keys, which are probably misspelt
+  std::vector<std::string> complaints;             ///< unknown keys, which are probably misspelt
 };
 
 /// Reads a rig file (docs/formats.md). The error names file, line and key, the value found and what

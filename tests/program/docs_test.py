@@ -51,6 +51,14 @@ class DocsTest(ProgramTest):
         for key, meaning in keys:
             self.assertIn(f"| `[gpio] {key}` | no | {meaning} |", formats)
 
+    def test_formats_lists_every_key_of_a_calibration(self):
+        formats = (ROOT / "docs/formats.md").read_text()
+        keys = re.findall(r'table\.insert\("(\w+)"',
+                          (ROOT / "host/calibration_section.cpp").read_text())
+        self.assertEqual(len(keys), 9)
+        for key in keys:
+            self.assertIn(f"| `{key}` | ", formats)
+
     def test_commands_in_the_documents_work(self):
         for document in documents():
             for block in shell_blocks(document.read_text()):
