@@ -16,6 +16,8 @@
 namespace penduline {
 namespace {
 
+constexpr std::size_t kMostParameters = 256;  // their covariance is as many squared
+
 std::vector<std::string> read_texts(const toml::table& table, std::string_view key,
                                     TomlSection& section) {
   std::vector<std::string> texts;
@@ -107,6 +109,11 @@ CalibrationRecord read_calibration(const toml::table& table, TomlFindings& findi
   record.recordings = read_texts(table, "recordings", section);
   record.residual_m = section.number("residual_m", kNotNegative);
   record.parameters = read_texts(table, "parameters", section);
+  if (record.parameters.size() > kMostParameters) {
+    section.fail("parameters", fmt::format("found {}, expected {} at most",
+                                           record.parameters.size(), kMostParameters));
+    return record;
+  }
   const std::size_t count = record.parameters.size();
   const std::vector<double> values = section.numbers("values", count, count);
   record.values = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -69,6 +70,11 @@ std::string utc_now() {
 }
 
 tl::expected<void, Error> require_free_output(const CommonOptions& options) {
+  std::vector<std::string> paths{options.output_path, options.plot_path};
+  std::ranges::transform(options.recordings, std::back_inserter(paths), named_input);
+  if (const auto distinct = require_distinct_files(paths); !distinct) {
+    return distinct;
+  }
   if (options.output_path == "-") {
     return failure("--output: found '-', expected a file: the report goes to the standard output");
   }

@@ -123,6 +123,8 @@ class CalibrateTest(ProgramTest):
         self.assertEqual(done.stderr, f"error: {rig}: is there already, expected a new file; --force "
                          "writes over it\n")
         self.assertEqual(rig.read_text(), TYPICAL.read_text())
+        done = run("calibrate", "rest", still, "--rig", rig, "-o", still, "--force", status=1)
+        self.assertIn("stands for two files of this run", done.stderr)
         run("calibrate", "rest", still, "--rig", rig, "-o", rig, "--force")
         self.assertIn('method = "rest"', rig.read_text())
 

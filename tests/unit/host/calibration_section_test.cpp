@@ -58,6 +58,15 @@ TEST_CASE("A record's arrays must go with each other", "[calibration]") {
         "covariance's diagonal, 0.2");
 }
 
+TEST_CASE("A record of more parameters than any calibration has is refused", "[calibration]") {
+  std::string many = "[\"a\"";
+  for (int i = 0; i < 256; ++i) {
+    many += ", \"a\"";
+  }
+  CHECK(error_with("[\"a\", \"b\"]", many + "]") ==
+        "rig.toml:25: [calibration] parameters: found 257, expected 256 at most");
+}
+
 TEST_CASE("A number is rounded to its significant digits", "[calibration]") {
   CHECK(rounded(0.0123456789) == 0.0123457);
   CHECK(rounded(-98765.4321, 3) == -98800);
