@@ -21,7 +21,7 @@ namespace penduline {
 namespace {
 
 template <class Numbers>
-toml::array numbers_of(const Numbers& numbers) {
+toml::array rounded_numbers(const Numbers& numbers) {
   toml::array array;
   for (const double number : numbers) {
     array.push_back(rounded(number));
@@ -37,8 +37,8 @@ void put_model(toml::table& table, const LinearResponse<double>& model) {
 
 void put_model(toml::table& table, const TableResponse<double>& model) {
   table.insert("model", "table");
-  table.insert("volts", numbers_of(model.gap_over_volts.x()));
-  table.insert("gap_m", numbers_of(model.gap_over_volts.y()));
+  table.insert("volts", rounded_numbers(model.gap_over_volts.x()));
+  table.insert("gap_m", rounded_numbers(model.gap_over_volts.y()));
 }
 
 void put_model(toml::table& table, const InverseSquareResponse<double>& model) {
@@ -134,7 +134,8 @@ std::string printed(const toml::table& rig) {
   constexpr std::array<std::string_view, 5> kFirst = {"pendulum", "disc", "sensor", "filter",
                                                       "gpio"};
   std::vector<std::string> keys = ordered_keys(rig, kFirst);
-  std::ranges::stable_partition(keys, [](const std::string& key) { return key != "calibration"; });
+  std::stable_partition(keys.begin(), keys.end(),
+                        [](const std::string& key) { return key != "calibration"; });
   std::string plain;  // keys outside any section must come first
   std::string sections;
   for (const std::string& key : keys) {
@@ -180,7 +181,7 @@ tl::expected<std::string, Error> rewritten_rig(const std::string& path, const Ri
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     toml::table& sensor = *sensors[i].as_table();
     if (changes.positions_m[i]) {
-      sensor.insert_or_assign("position_m", numbers_of(*changes.positions_m[i]));
+      sensor.insert_or_assign("position_m", rounded_numbers(*changes.positions_m[i]));
     }
     if (changes.responses[i]) {
       sensor.insert_or_assign("response", response_table(*changes.responses[i]));
@@ -202,7 +203,7 @@ tl::expected<void, Error> put_file(const std::string& path, const std::string& t
   }
   file->text() = text;
   std::error_code error;
-  if (const auto flushed = file->flush(); !flushed) {
+  if (auto flushed = file->flush(); !flushed) {
     std::filesystem::remove(unfinished, error);
     return flushed;
   }

@@ -13,13 +13,12 @@
 #include "host/calibration/geometry_numbers.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_data.hpp"
+#include "host/calibration/units.hpp"
 
 namespace penduline {
 namespace {
 
-constexpr double kMilli = 1e-3;
-constexpr double kMicro = 1e-6;
-constexpr double kMostResidual_m = 0.2e-3;
+constexpr double kWorstGeometry_m = 0.2e-3;
 
 /// What a geometry was found from, in gaps of one sensor each.
 struct Seen {
@@ -69,8 +68,8 @@ tl::expected<std::vector<Seen>, Error> readable_points(const RigFile& rig,
 Panel residual_panel(const std::string& sensor, const std::vector<UsedSignal>& used) {
   Curve curve{.name = "", .style = CurveStyle::kPoints, .x = {}, .y = {}};
   for (const UsedSignal& signal : used) {
-    curve.x.push_back(signal.gap_m / kMilli);
-    curve.y.push_back(signal.misfit_m / kMicro);
+    curve.x.push_back(signal.gap_m / kMillimetre);
+    curve.y.push_back(signal.misfit_m / kMicrometre);
   }
   return {.title = sensor + ": residuals",
           .x_label = "gap / mm",
@@ -82,11 +81,11 @@ Panel residual_panel(const std::string& sensor, const std::vector<UsedSignal>& u
 tl::expected<Calibration, Error> concluded(const RigFile& rig, const GeometryNumbers& numbers,
                                            std::span<const double> found, double residual_m,
                                            Calibration result) {
-  if (residual_m > kMostResidual_m) {
+  if (residual_m > kWorstGeometry_m) {
     return failure(
         fmt::format("the best geometry misses the gaps by {:.2f} mm RMS, expected {:.1f} "
                     "mm or less: calibrate the responses by known gaps first",
-                    residual_m / kMilli, kMostResidual_m / kMilli));
+                    residual_m / kMillimetre, kWorstGeometry_m / kMillimetre));
   }
   if (numbers.free_count() == 0) {
     return failure(

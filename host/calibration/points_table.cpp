@@ -15,11 +15,10 @@
 #include "hal/replay/cells.hpp"
 #include "hal/replay/line_reader.hpp"
 
+#include "host/calibration/units.hpp"
+
 namespace penduline {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-constexpr double kMilli = 1e-3;
 
 std::string gap_column(std::size_t sensor) {
   return sensor < 2 ? fmt::format("gap_{}_mm", "xy"[sensor])
@@ -123,8 +122,8 @@ tl::expected<KnownPoint, Error> parse_point(std::string_view line, const Columns
                                point.from_s, point.to_s));
   }
   if (columns.has("theta1_deg")) {
-    point.angles = {.theta1_rad = number_or("theta1_deg", 0) * kRadPerDeg,
-                    .theta2_rad = number_or("theta2_deg", 0) * kRadPerDeg};
+    point.angles = {.theta1_rad = number_or("theta1_deg", 0) * kDegree,
+                    .theta2_rad = number_or("theta2_deg", 0) * kDegree};
     if (!(std::abs(point.angles->theta1_rad) < std::numbers::pi / 3) ||
         !(std::abs(point.angles->theta2_rad) < std::numbers::pi / 3)) {
       return failure(fmt::format("{}: found {} and {} deg, expected angles within 60 deg", place,
@@ -132,7 +131,8 @@ tl::expected<KnownPoint, Error> parse_point(std::string_view line, const Columns
     }
   }
   for (std::size_t i = 0; i < sensor_count; ++i) {
-    point.gap_m[i] = number_or(gap_column(i), std::numeric_limits<double>::quiet_NaN()) * kMilli;
+    point.gap_m[i] =
+        number_or(gap_column(i), std::numeric_limits<double>::quiet_NaN()) * kMillimetre;
   }
   return point;
 }

@@ -10,14 +10,14 @@
 #include <numeric>
 
 #include "host/calibration/calibration.hpp"
+#include "host/calibration/units.hpp"
 
 namespace penduline {
 namespace {
 
-constexpr double kMilli = 1e-3;
 /// How well a jig's gap is known, and the noise that no mean takes away.
-constexpr double kGapSigma_m = 20e-6;
-constexpr double kNarrowest_m = 2e-3;
+constexpr double kJigSigma_m = 20e-6;
+constexpr double kNarrowestPoints_m = 2e-3;
 /// Beyond this a curve is not determined.
 constexpr double kWorstCurveSigma_m = 0.1e-3;
 
@@ -66,7 +66,7 @@ double leave_out_fold(std::vector<SensorPoint>& points, double known_peak_m, Res
     result.warnings.push_back(fmt::format(
         "{} of {} points are nearer than {:.2f} mm and left out: the signal folds back at its peak "
         "at {:.2f} mm, where two gaps give one signal",
-        result.left_out, before, nearest_m / kMilli, peak_m / kMilli));
+        result.left_out, before, nearest_m / kMillimetre, peak_m / kMillimetre));
   }
   return peak_m;
 }
@@ -79,10 +79,11 @@ tl::expected<Weighed, Error> weigh(std::vector<SensorPoint> points, std::size_t 
   }
   Weighed weighed{.points = std::move(points), .steepness_v_per_m = {}, .range = {}};
   weighed.range = {weighed.points.front().gap_m, weighed.points.back().gap_m};
-  if (weighed.range.farthest_m - weighed.range.nearest_m < kNarrowest_m) {
+  if (weighed.range.farthest_m - weighed.range.nearest_m < kNarrowestPoints_m) {
     return failure(fmt::format("found gaps from {:.2f} to {:.2f} mm, expected {:.0f} mm or more",
-                               weighed.range.nearest_m / kMilli, weighed.range.farthest_m / kMilli,
-                               kNarrowest_m / kMilli));
+                               weighed.range.nearest_m / kMillimetre,
+                               weighed.range.farthest_m / kMillimetre,
+                               kNarrowestPoints_m / kMillimetre));
   }
   std::vector<double> gaps;
   std::vector<double> signals;
@@ -126,7 +127,7 @@ Candidate finished(Candidate candidate, const Weighed& data) {
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const double noise_m = data.points[i].standard_error_v / data.steepness_v_per_m[i];
       residuals[static_cast<Eigen::Index>(i)] =
-          misfit(values, i) / std::hypot(noise_m, kGapSigma_m);
+          misfit(values, i) / std::hypot(noise_m, kJigSigma_m);
     }
   };
   return candidate;
@@ -169,7 +170,7 @@ Candidate polynomial_candidate(ResponseModel model, std::size_t degree, const We
   for (std::size_t i = 0; i <= degree; ++i) {
     candidate.parameters.push_back({.name = fmt::format("c{}_m_per_v{}", i, i),
                                     .start = i == 0 ? data.range.farthest_m : 0,
-                                    .scale = kMilli});
+                                    .scale = kMillimetre});
   }
   const auto value = [](const Eigen::VectorXd& numbers, double volts) {
     double sum = 0;
@@ -295,7 +296,7 @@ tl::expected<void, Error> choose(const std::vector<Candidate>& candidates, const
         fmt::format("the points leave the curve uncertain by {:.2f} mm, expected {:.1f} mm or "
                     "less: more points, "
                     "better known, or a simpler model",
-                    curve_sigma_m / kMilli, kWorstCurveSigma_m / kMilli));
+                    curve_sigma_m / kMillimetre, kWorstCurveSigma_m / kMillimetre));
   }
   return {};
 }

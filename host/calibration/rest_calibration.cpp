@@ -6,17 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/gauss_newton.hpp"
 #include "host/calibration/static_calibration.hpp"
+#include "host/calibration/units.hpp"
 
 namespace penduline {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr double kMilli = 1e-3;
-constexpr double kMicro = 1e-6;
 
 /// One sensor at rest.
 struct RestGap {
@@ -79,7 +75,7 @@ tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<Sign
 
 /// Degrees that a gap's change means under this sensor.
 double degrees_of(const RigFile& rig, std::size_t sensor, double gap_m) {
-  return gap_m / rig.rig.layout.position_m[sensor].head<2>().norm() * kDegPerRad;
+  return gap_m / rig.rig.layout.position_m[sensor].head<2>().norm() / kDegree;
 }
 
 tl::expected<void, Error> require_still(const RigFile& rig, const std::vector<SignalLog>& logs,
@@ -188,7 +184,7 @@ tl::expected<Zero, Error> apply(ZeroOf zero_of, const RigFile& rig, std::size_t 
       return failure(
           fmt::format("sensor {}: a shift by {:.3f} mm takes the pole of its "
                       "inverse_square to a gap above 0: use --zero height",
-                      name, -off_m / kMilli));
+                      name, -off_m / kMillimetre));
     }
     changes.responses[sensor] = shifted(response, -off_m);
     return Zero{name + " gap_shift_m", -off_m, rest.sigma_m};
@@ -215,7 +211,7 @@ std::string former_zero(const RigFile& rig, const std::vector<RestGap>& rests) {
   }
   const Angles<double> angles = angles_of(solved->slopes);
   return fmt::format("the rig as it was gives theta1 = {:.3f}, theta2 = {:.3f} deg at rest",
-                     angles.theta1_rad * kDegPerRad, angles.theta2_rad * kDegPerRad);
+                     angles.theta1_rad / kDegree, angles.theta2_rad / kDegree);
 }
 
 }  // namespace
@@ -251,9 +247,9 @@ tl::expected<Calibration, Error> calibrate_rest(const RigFile& rig,
     result.notes.push_back(fmt::format(
         "{}: {} samples, {:.5f} V, scatter {:.2f} mV; a gap of {:.4f} mm where the rig has {:.4f}, "
         "{:+.1f} um",
-        rig.sensor_names[i], rest->mean.count, rest->mean.volts, rest->mean.scatter_v / kMilli,
-        rest->gap_m / kMilli, rest->expected_m / kMilli,
-        (rest->gap_m - rest->expected_m) / kMicro));
+        rig.sensor_names[i], rest->mean.count, rest->mean.volts, rest->mean.scatter_v / kMillimetre,
+        rest->gap_m / kMillimetre, rest->expected_m / kMillimetre,
+        (rest->gap_m - rest->expected_m) / kMicrometre));
     rests.push_back(*rest);
   }
   result.record.residual_m = std::sqrt(squares / static_cast<double>(count));

@@ -6,11 +6,10 @@
 
 #include <cmath>
 
+#include "host/calibration/units.hpp"
+
 namespace penduline {
 namespace {
-
-constexpr double kMilli = 1e-3;
-constexpr double kMicro = 1e-6;
 
 /// Adds a sensor's numbers to the record; sensors know nothing of each other.
 void append(const ResponseFit& fit, const std::string& sensor, CalibrationRecord& record) {
@@ -32,7 +31,7 @@ void append(const ResponseFit& fit, const std::string& sensor, CalibrationRecord
 Curve points_curve(const std::vector<double>& gap_m, const std::vector<double>& volts) {
   Curve curve{.name = "measured", .style = CurveStyle::kPoints, .x = {}, .y = volts};
   for (const double gap : gap_m) {
-    curve.x.push_back(gap / kMilli);
+    curve.x.push_back(gap / kMillimetre);
   }
   return curve;
 }
@@ -43,13 +42,13 @@ std::vector<Panel> response_panels(const std::string& sensor, const Response<dou
   Curve line{.name = "fitted", .style = CurveStyle::kLine, .x = {}, .y = {}};
   for (int i = 0; i <= kPlaces; ++i) {
     const double gap_m = range.nearest_m + (range.farthest_m - range.nearest_m) * i / kPlaces;
-    line.x.push_back(gap_m / kMilli);
+    line.x.push_back(gap_m / kMillimetre);
     line.y.push_back(response.volts(gap_m));
   }
   Curve residuals{.name = "", .style = CurveStyle::kPoints, .x = points.x, .y = {}};
   for (std::size_t i = 0; i < points.x.size(); ++i) {
-    residuals.y.push_back((response.read(points.y[i]).gap_m.value_or(NAN) - points.x[i] * kMilli) /
-                          kMicro);
+    residuals.y.push_back(
+        (response.read(points.y[i]).gap_m.value_or(NAN) - points.x[i] * kMillimetre) / kMicrometre);
   }
   return {
       {.title = sensor, .x_label = "gap / mm", .y_label = "signal / V", .curves = {line, points}},
@@ -77,8 +76,8 @@ tl::expected<Calibration, Error> calibrate_static(const RigFile& rig, const Sens
     result.notes.push_back(fmt::format(
         "{}: {} of {} points, {} of {} numbers, gaps {:.2f} to {:.2f} mm, residual {:.1f} um RMS",
         name, fit->used.size(), fit->used.size() + fit->left_out, model_name(model),
-        fit->names.size(), fit->range.nearest_m / kMilli, fit->range.farthest_m / kMilli,
-        fit->residual_m / kMicro));
+        fit->names.size(), fit->range.nearest_m / kMillimetre, fit->range.farthest_m / kMillimetre,
+        fit->residual_m / kMicrometre));
     std::vector<double> gaps;
     std::vector<double> volts;
     for (const SensorPoint& point : fit->used) {

@@ -6,18 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_data.hpp"
+#include "host/calibration/units.hpp"
 
 namespace penduline {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr double kMilli = 1e-3;
-constexpr double kMicro = 1e-6;
-constexpr std::size_t kDegree = 4;
+constexpr std::size_t kCurveDegree = 4;
 constexpr double kMostLeftOut = 0.25;
 
 /// Sensors whose responses are unknown; they stand where the rig says.
@@ -27,7 +24,7 @@ class ResponsesUnknown final : public SensorModel {
                    const std::array<double, kMaxSensors>& gain)
       : rig_(rig) {
     for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
-      curves_.emplace_back(kind, ranges[i], kDegree);
+      curves_.emplace_back(kind, ranges[i], kCurveDegree);
       first_.push_back(unknowns_.size());
       add_unknowns(i, ranges[i], gain[i]);
     }
@@ -120,7 +117,7 @@ tl::expected<void, Error> require_beyond_fold(const RigFile& rig,
             "nearer than {:.2f} mm, or unreadable, expected {:.0f} % or less: swing less far, or "
             "mount it higher",
             swing.name, rig.sensor_names[i], share * 100,
-            nearest_readable_m(rig.rig.responses[i]) / kMilli, kMostLeftOut * 100));
+            nearest_readable_m(rig.rig.responses[i]) / kMillimetre, kMostLeftOut * 100));
       }
     }
   }
@@ -142,7 +139,7 @@ std::vector<GapRange> ranges_of(const RigFile& rig, const std::vector<SwingData>
     }
     const double nearest_m =
         std::max({nearest_readable_m(rig.rig.responses[i]), rest_m - reach_m, rest_m / 10});
-    ranges.push_back({std::min(nearest_m, rest_m - kMilli), rest_m + reach_m});
+    ranges.push_back({std::min(nearest_m, rest_m - kMillimetre), rest_m + reach_m});
   }
   return ranges;
 }
@@ -169,27 +166,28 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
     return failure(fmt::format(
         "{}: sensor {}: {:.0f} % of the samples are nearer than {:.2f} mm, where the signal folds "
         "back, or off the disc, expected {:.0f} % or less: swing less far, or mount it higher",
-        path, name, share * 100, readable_m / kMilli, kMostLeftOut * 100));
+        path, name, share * 100, readable_m / kMillimetre, kMostLeftOut * 100));
   }
   const GapRange range = seen_range(used, readable_m);
   if (range.farthest_m - range.nearest_m < kNarrowest_m) {
     return failure(fmt::format(
         "{}: sensor {}: found gaps from {:.2f} to {:.2f} mm, expected {:.0f} mm or more: let it "
         "swing in an ellipse, or add a recording of a swing towards this sensor",
-        path, name, range.nearest_m / kMilli, range.farthest_m / kMilli, kNarrowest_m / kMilli));
+        path, name, range.nearest_m / kMillimetre, range.farthest_m / kMillimetre,
+        kNarrowest_m / kMillimetre));
   }
   const auto numbers = model.of_sensor(fit.sensor_numbers(), sensor);
   if (!keeps_falling(model.curve(sensor), numbers, range)) {
     return failure(
         fmt::format("{}: sensor {}: the signal does not keep falling as the gap grows "
                     "from {:.2f} to {:.2f} mm",
-                    path, name, range.nearest_m / kMilli, range.farthest_m / kMilli));
+                    path, name, range.nearest_m / kMillimetre, range.farthest_m / kMillimetre));
   }
   if (left_out > 0) {
     result.warnings.push_back(fmt::format(
         "sensor {}: {} of {} samples are left out: nearer than {:.2f} mm the signal folds back at "
         "its peak, where two gaps give one signal, or the beam misses the disc",
-        name, left_out, left_out + used.size(), readable_m / kMilli));
+        name, left_out, left_out + used.size(), readable_m / kMillimetre));
   }
   const Response<double> response =
       model.curve(sensor).response(numbers, range, rig.rig.responses[sensor].peak_m);
@@ -204,8 +202,8 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
   }
   result.notes.push_back(
       fmt::format("{}: {} samples, gaps {:.2f} to {:.2f} mm, residual {:.1f} um RMS", name,
-                  used.size(), range.nearest_m / kMilli, range.farthest_m / kMilli,
-                  std::sqrt(squares / static_cast<double>(used.size())) / kMicro));
+                  used.size(), range.nearest_m / kMillimetre, range.farthest_m / kMillimetre,
+                  std::sqrt(squares / static_cast<double>(used.size())) / kMicrometre));
   for (Panel& panel : response_panels(name, response, range, points_curve(gaps, volts))) {
     result.figure.panels.push_back(std::move(panel));
   }
@@ -214,7 +212,7 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
 
 tl::expected<void, Error> require_known_angles(const SwingFit& fit, const std::string& path) {
   constexpr double kMost_deg = 0.2;
-  const double found_deg = fit.angle_sigma_rad * kDegPerRad;
+  const double found_deg = fit.angle_sigma_rad / kDegree;
   if (found_deg <= kMost_deg) {
     return {};
   }
@@ -236,7 +234,7 @@ tl::expected<void, Error> require_good_swing(const SwingFit& fit,
     return failure(fmt::format(
         "{}: the best fit misses the gaps by {:.2f} mm RMS, expected {:.1f} mm or less: no free "
         "swing of one pendulum of about {} m does that",
-        path, fit.residual_m / kMilli, kMostResidual_m / kMilli, pendulum.length_m));
+        path, fit.residual_m / kMillimetre, kMostResidual_m / kMillimetre, pendulum.length_m));
   }
   if (fit.release_s < -0.1 / small_swing_hz(pendulum)) {
     return failure(
@@ -290,7 +288,7 @@ tl::expected<Calibration, Error> calibrate_swing(const RigFile& rig,
   result.notes.push_back(fmt::format(
       "the swing's amplitude is known to {:.3f} deg; effective length {:.5f} +- {:.5f} m, the rig "
       "says {} m",
-      fit->angle_sigma_rad * kDegPerRad, fit->fit.values[0], fit->fit.sigma(0),
+      fit->angle_sigma_rad / kDegree, fit->fit.values[0], fit->fit.sigma(0),
       rig.rig.pendulum.length_m));
   return result;
 }

@@ -11,23 +11,24 @@
 
 #include "common/gauss_newton.hpp"
 
+#include "host/calibration/units.hpp"
+
 namespace penduline {
 namespace {
 
 constexpr double kSamplesAPeriod = 32;
 constexpr double kFewestPeriods = 5;
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 /// The angles that one sample's signals mean, if all sensors say something sound.
-struct Reading {
+struct TiltReading {
   std::optional<Angles<double>> angles{};
   std::array<bool, kMaxSensors> doubtful{};
 };
 
-Reading read(const Rig<double>& rig, const GaussNewton<double>& inverse,
-             const std::array<double, kMaxSensors>& volts,
-             const std::array<double, kMaxSensors>& gain) {
-  Reading reading;
+TiltReading read(const Rig<double>& rig, const GaussNewton<double>& inverse,
+                 const std::array<double, kMaxSensors>& volts,
+                 const std::array<double, kMaxSensors>& gain) {
+  TiltReading reading;
   std::array<double, kMaxSensors> gaps{};
   bool all = true;
   for (std::size_t i = 0; i < rig.layout.count; ++i) {
@@ -72,7 +73,7 @@ Eigen::Vector2d harmonic(const std::vector<double>& t_s, const std::vector<doubl
 
 /// When the pendulum was let go: the last sample that is where the first ones are.
 double released_s(const std::vector<double>& t_s, const std::vector<Angles<double>>& angles) {
-  constexpr double kMoved_rad = 0.3 / kDegPerRad;
+  constexpr double kMoved_rad = 0.3 * kDegree;
   std::size_t i = 0;
   while (i + 1 < angles.size() &&
          std::hypot(angles[i + 1].theta1_rad - angles[0].theta1_rad,
@@ -85,7 +86,7 @@ double released_s(const std::vector<double>& t_s, const std::vector<Angles<doubl
 tl::expected<void, Error> begin(SwingData& data, const Rig<double>& rig,
                                 const std::vector<double>& t_s,
                                 const std::vector<Angles<double>>& angles) {
-  constexpr double kLeast_rad = 1 / kDegPerRad;
+  constexpr double kLeast_rad = 1 * kDegree;
   constexpr std::size_t kFewest = 8;
   const double omega = 2 * std::numbers::pi * small_swing_hz(rig.pendulum);
   std::vector<double> times;
@@ -109,7 +110,7 @@ tl::expected<void, Error> begin(SwingData& data, const Rig<double>& rig,
   const Eigen::Vector2d second = harmonic(times, angle2, omega);
   if (std::hypot(first.norm(), second.norm()) < kLeast_rad) {
     return failure(fmt::format("{}: found a swing of {:.2f} deg, expected 1 deg or more", data.name,
-                               std::hypot(first.norm(), second.norm()) * kDegPerRad));
+                               std::hypot(first.norm(), second.norm()) / kDegree));
   }
   data.start = {.theta1_rad = first[0],
                 .theta2_rad = second[0],
@@ -141,7 +142,7 @@ tl::expected<SwingData, Error> data_of(const SignalLog& log, const Rig<double>& 
   std::vector<double> t_s;
   std::vector<Angles<double>> angles;
   for (std::size_t i = 0; i < log.t_s.size(); i += stride) {
-    const Reading reading = read(rig, inverse, log.volts[i], gain);
+    const TiltReading reading = read(rig, inverse, log.volts[i], gain);
     data.t_s.push_back(log.t_s[i]);
     data.volts.push_back(log.volts[i]);
     data.doubtful.push_back(reading.doubtful);

@@ -14,6 +14,7 @@
 #include "common/dynamics.hpp"
 #include "common/sample.hpp"
 #include "hal/error.hpp"
+#include "host/calibration/units.hpp"
 #include "host/fit/least_squares.hpp"
 
 namespace penduline {
@@ -29,7 +30,7 @@ struct Release {
   std::optional<Angles<double>> angles{};
   double tilt_rad = 0;  ///< where there are no `angles`
   /// How well anybody knows such an angle.
-  static constexpr double kSigma_rad = 0.1 * std::numbers::pi / 180;
+  static constexpr double kSigma_rad = 0.1 * kDegree;
 };
 
 /// The signals of one swing.

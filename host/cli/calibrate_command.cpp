@@ -9,7 +9,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "host/calibration/rest_calibration.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_calibration.hpp"
+#include "host/calibration/units.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
@@ -72,7 +72,7 @@ std::string utc_now() {
 tl::expected<void, Error> require_free_output(const CommonOptions& options) {
   std::vector<std::string> paths{options.output_path, options.plot_path};
   std::ranges::transform(options.recordings, std::back_inserter(paths), named_input);
-  if (const auto distinct = require_distinct_files(paths); !distinct) {
+  if (auto distinct = require_distinct_files(paths); !distinct) {
     return distinct;
   }
   if (options.output_path == "-") {
@@ -251,7 +251,6 @@ void add_rest(CLI::App& calibrate, ExitStatus& status) {
 
 /// "12": a tilt; "8.5,-8.5": theta1 and theta2.
 Release parse_release(const std::string& text) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180;
   constexpr double kMost_deg = 60;
   std::vector<double> numbers;
   for (const std::string_view cell : split_cells(text, ",")) {
@@ -261,7 +260,7 @@ Release parse_release(const std::string& text) {
           "--released-at",
           fmt::format("found '{}', expected the tilt or theta1,theta2 in degrees, to 60", text));
     }
-    numbers.push_back(*number * kRadPerDeg);
+    numbers.push_back(*number * kDegree);
   }
   if (numbers.size() == 1 && numbers[0] > 0) {
     return {.angles = {}, .tilt_rad = numbers[0]};
