@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
+#include <stdexcept>
 
 namespace penduline {
 namespace {
@@ -87,8 +88,8 @@ Eigen::VectorXd search(const ScaledProblem& problem) {
   double least = 0;
   try {
     optimizer.optimize(at, least);
-  } catch (const nlopt::roundoff_limited&) {
-    // `at` is the best so far.
+  } catch (const std::runtime_error&) {
+    // Near a minimum without noise it runs into rounding, or out of steps; `at` is the best so far.
   }
   return Eigen::Map<const Eigen::VectorXd>(at.data(), start.size());
 }
@@ -97,31 +98,46 @@ Eigen::VectorXd search(const ScaledProblem& problem) {
 struct Linearized {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd{};
+  Eigen::VectorXd step{};  ///< to be taken back: to the minimum, as far as is seen from here
+  std::vector<std::size_t> held{};  ///< parameters at a bound that would go beyond it
 };
 
-Linearized linearize(const ScaledProblem& problem, const Eigen::VectorXd& at,
-                     const std::vector<std::size_t>& held) {
-  Linearized result{
-      .residuals = problem.residuals(at), .jacobian = problem.jacobian(at), .svd = {}};
-  for (const std::size_t i : held) {
-    result.jacobian.col(static_cast<Eigen::Index>(i)).setZero();
-  }
-  result.svd.compute(result.jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return result;
+/// Which bound a parameter is next to, by its scale: -1 the lower, 1 the upper, 0 none.
+double bound_at(double value, double low, double high) {
+  constexpr double kNear = 1e-4;
+  return value - low < kNear ? -1 : high - value < kNear ? 1 : 0;
 }
 
-std::vector<std::size_t> held_at_bounds(const ScaledProblem& problem, const Eigen::VectorXd& at) {
-  constexpr double kNear = 1e-9;
+/// Puts and holds those parameters at bounds that the step would take beyond them, one after the
+/// other, for without one of them others may turn back.
+Linearized linearize(const ScaledProblem& problem, Eigen::VectorXd& at) {
   const Eigen::VectorXd low = problem.of_each(&FitParameter::low);
   const Eigen::VectorXd high = problem.of_each(&FitParameter::high);
-  std::vector<std::size_t> held;
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    if (at[i] - low[i] < kNear || high[i] - at[i] < kNear) {
-      held.push_back(static_cast<std::size_t>(i));
+  Linearized result{.residuals = problem.residuals(at), .jacobian = problem.jacobian(at)};
+  while (true) {
+    result.svd.compute(result.jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    result.step = result.svd.solve(result.residuals);
+    Eigen::Index farthest = -1;
+    double beyond = 0;
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      const double outwards = -result.step[i] * bound_at(at[i], low[i], high[i]);
+      if (outwards > beyond) {
+        beyond = outwards;
+        farthest = i;
+      }
     }
+    if (farthest < 0) {
+      return result;
+    }
+    result.held.push_back(static_cast<std::size_t>(farthest));
+    const double bound = result.step[farthest] > 0 ? low[farthest] : high[farthest];
+    if (at[farthest] != bound) {
+      at[farthest] = bound;
+      result.residuals = problem.residuals(at);
+    }
+    result.jacobian.col(farthest).setZero();
   }
-  return held;
 }
 
 /// Inverse of J^T J. A direction that no residual sees gets a variance beyond all scales.
@@ -135,40 +151,40 @@ Eigen::MatrixXd inverse_normal(const Linearized& at) {
 
 /// Goes downhill by Gauss-Newton steps, shortened where they overshoot, until a step is nothing
 /// beside the parameters' sigmas. False where it cannot.
-bool polish(const ScaledProblem& problem, const std::vector<std::size_t>& held, Eigen::VectorXd& at,
-            Linearized& here) {
+bool polish(const ScaledProblem& problem, Eigen::VectorXd& at, Linearized& here) {
   constexpr int kMostSteps = 50;
   constexpr double kNothing = 1e-3;
   const Eigen::VectorXd low = problem.of_each(&FitParameter::low);
   const Eigen::VectorXd high = problem.of_each(&FitParameter::high);
   for (int i = 0; i < kMostSteps; ++i) {
-    here = linearize(problem, at, held);
-    const Eigen::VectorXd step = here.svd.solve(here.residuals);
+    here = linearize(problem, at);
     // In residuals' standard deviations: what the step would still gain.
-    if ((here.jacobian * step).norm() <
+    if ((here.jacobian * here.step).norm() <
         kNothing * std::max(1.0, here.residuals.norm() / std::sqrt(here.residuals.size()))) {
       return true;
     }
     double share = 1;
-    const auto moved = [&] { return (at - share * step).cwiseMax(low).cwiseMin(high).eval(); };
-    while (share > 1e-6 &&
+    // A bound in the way ends the step there and does not bend it.
+    const auto room = [&](Eigen::Index j) {
+      const double to_bound = here.step[j] > 0 ? at[j] - low[j] : at[j] - high[j];
+      return here.step[j] == 0 || !std::isfinite(to_bound) ? 1.0 : to_bound / here.step[j];
+    };
+    for (Eigen::Index j = 0; j < at.size(); ++j) {
+      share = std::min(share, std::max(room(j), 0.0));
+    }
+    const double first_share = share;
+    const auto moved = [&] { return (at - share * here.step).cwiseMax(low).cwiseMin(high).eval(); };
+    while (share > 1e-6 * first_share &&
            !(problem.residuals(moved()).squaredNorm() < here.residuals.squaredNorm())) {
       share /= 4;
     }
-    if (share <= 1e-6) {
+    if (share <= 1e-6 * first_share) {
       // No way down is left: the rounding of the residuals is all there is.
-      return (here.jacobian * step).norm() < 1e-2 * here.residuals.norm();
+      return (here.jacobian * here.step).norm() < 1e-2 * here.residuals.norm();
     }
     at = moved();
   }
   return false;
-}
-
-/// Whether no parameter has a bound.
-bool is_free(const std::vector<FitParameter>& parameters) {
-  return std::ranges::none_of(parameters, [](const FitParameter& parameter) {
-    return std::isfinite(parameter.low) || std::isfinite(parameter.high);
-  });
 }
 
 }  // namespace
@@ -192,14 +208,15 @@ tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& para
   Fit fit;
   Linearized here;
   Eigen::VectorXd at = problem.of_each(&FitParameter::start);
-  // From a start that is near, Gauss-Newton is there in a few steps; within bounds it may be stuck.
-  if (!is_free(parameters) || !polish(problem, fit.at_bound, at, here)) {
+  // From a start that is near, Gauss-Newton is there in a few steps.
+  if (!polish(problem, at, here)) {
     at = search(problem);
-    fit.at_bound = held_at_bounds(problem, at);
-    if (!polish(problem, fit.at_bound, at, here)) {
+    if (!polish(problem, at, here)) {
       return failure("the fit found no minimum: the model does not describe these data");
     }
   }
+  fit.at_bound = here.held;
+  std::ranges::sort(fit.at_bound);
   fit.residuals = here.residuals;
   const auto freedom = std::max<std::size_t>(residual_count - parameters.size(), 1);
   fit.scatter = here.residuals.norm() / std::sqrt(static_cast<double>(freedom));

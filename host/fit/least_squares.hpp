@@ -42,11 +42,11 @@ struct Fit {
   [[nodiscard]] double sigma(std::size_t parameter) const;
 };
 
-/// Searches from the start within the bounds (NLopt's SLSQP on scaled parameters), then goes to the
-/// minimum itself by Gauss-Newton steps; without any bounds by these alone where they get there.
-/// Jacobians are central differences of a ten-thousandth of the scale, so `residuals` must be
-/// smooth there. Fails where there are fewer residuals than parameters, where the start has no
-/// answer, and where no minimum is reached.
+/// Goes from the start to the minimum within the bounds by Gauss-Newton steps; where these do not
+/// get there, searches first (NLopt's SLSQP on scaled parameters). Jacobians are central
+/// differences of a ten-thousandth of the scale, so `residuals` must be smooth there. Fails where
+/// there are fewer residuals than parameters, where the start has no answer, and where no minimum
+/// is reached.
 [[nodiscard]] tl::expected<Fit, Error> fit_least_squares(
     const std::vector<FitParameter>& parameters, std::size_t residual_count,
     const FitResiduals& residuals);

@@ -70,3 +70,22 @@ TEST_CASE("A first guess without an answer is said") {
   REQUIRE_FALSE(fit);
   CHECK(fit.error().message == "the fit's first guess has no answer");
 }
+
+TEST_CASE(
+    "Of two numbers that a line hardly tells apart one comes to its bound, the other to its best") {
+  // y = a x + b (x + x^2/100) with a, b >= 0 and data that would like b below 0.
+  const auto line = [](const Eigen::VectorXd& at, Eigen::VectorXd& residuals) {
+    for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+      const double x = 0.1 * static_cast<double>(i);
+      residuals[i] = at[0] * x + at[1] * (x + x * x / 100) - (2 * x - x * x / 50);
+    }
+  };
+  const auto fit = fit_least_squares({{.name = "a", .start = 1, .scale = 1, .low = 0},
+                                      {.name = "b", .start = 1, .scale = 1, .low = 0}},
+                                     20, line);
+  REQUIRE(fit);
+  // numpy.polyfit's slope through the origin: sum(x y) / sum(x^2)
+  CHECK(fit->values[0] == Approx(1.9707692308).epsilon(1e-6));
+  CHECK(fit->values[1] == Approx(0).margin(1e-9));
+  CHECK(fit->at_bound == std::vector<std::size_t>{1});
+}
