@@ -23,10 +23,13 @@ struct FreeSwing {
   Friction friction;
 };
 
+/// The speed below which dry friction is rounded off, so that a path is smooth in what decides it.
+inline constexpr double kDryRoundingRadPerS = 0.001;
+
 /// The states at `times_s`, which rise from the moment of `start` on. Steps of a hundredth of the
-/// small swing's period at the most (Runge-Kutta, fourth order), so the path is smooth in all that
-/// decides it; dry friction is rounded off below `kDryRounding_rad_s`.
-inline constexpr double kDryRounding_rad_s = 0.01;
+/// small swing's period at the most (Runge-Kutta, fourth order), shorter where the mass turns round
+/// under dry friction. A mass that comes to a standstill where gravity pulls less than dry friction
+/// holds stays there. Not finite from where the numbers run away.
 [[nodiscard]] std::vector<SwingState<double>> swing_path(const FreeSwing& swing,
                                                          const SwingState<double>& start,
                                                          std::span<const double> times_s);
