@@ -25,6 +25,7 @@ int run_program(int argc, char** argv) {
       "penduline");
   program.set_version_flag("--version", "penduline " PENDULINE_VERSION);
   program.require_subcommand(1);
+  add_analyze_command(program, status);
   add_calibrate_command(program, status);
   add_devices_command(program, status);
   add_replay_command(program, status);

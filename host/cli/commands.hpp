@@ -10,6 +10,7 @@ namespace penduline {
 
 /// Each adds its subcommand to the program; when the subcommand has run, `status` tells how it
 /// ended.
+void add_analyze_command(CLI::App& program, ExitStatus& status);
 void add_calibrate_command(CLI::App& program, ExitStatus& status);
 void add_devices_command(CLI::App& program, ExitStatus& status);
 void add_replay_command(CLI::App& program, ExitStatus& status);

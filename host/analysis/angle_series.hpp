@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles over time, as an analysis takes them: from a table or from a recording.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "common/rig.hpp"
+#include "hal/error.hpp"
+
+namespace penduline {
+
+/// Angles that can be trusted, at rising times.
+struct AngleSeries {
+  std::vector<double> t_s{};
+  std::vector<double> theta1_rad{};
+  std::vector<double> theta2_rad{};  ///< all 0 where the swing is `planar`
+  bool planar = false;               ///< the file has one angle only
+  std::size_t left_out = 0;          ///< rows without angles, or with a flag against them
+
+  [[nodiscard]] std::size_t size() const { return t_s.size(); }
+  /// The rows from the moment `from_s` to `to_s`, both included.
+  [[nodiscard]] AngleSeries between(double from_s, double to_s) const;
+  /// The usual time from row to row; 0 below two rows.
+  [[nodiscard]] double period_s() const;
+};
+
+/// Whether the first line that is no comment names angles, not readings of sensors. Fails where the
+/// file cannot be read.
+[[nodiscard]] tl::expected<bool, Error> is_angle_table(const std::string& path);
+
+/// Reads columns separated by commas: `t_s` with `theta1_rad` and `theta2_rad`, or with `theta_rad`
+/// alone. Others are ignored but `flags`. Fails, naming file and line, where one is missing, a cell
+/// is no number or the time does not rise.
+[[nodiscard]] tl::expected<AngleSeries, Error> read_angle_table(const std::string& path);
+
+/// The angles of each sample of a recording by itself: no filter, so that noise is independent from
+/// row to row and nothing is bent. Fails as reading does, and where the board's clock starts anew.
+[[nodiscard]] tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
+                                                                   const Rig<double>& rig);
+
+}  // namespace penduline
