@@ -59,6 +59,13 @@ class DocsTest(ProgramTest):
         for key in keys:
             self.assertIn(f"| `{key}` | ", formats)
 
+    def test_formats_lists_every_key_of_an_analysis(self):
+        formats = (ROOT / "docs/formats.md").read_text()
+        keys = set(re.findall(r'\{"(\w+)", ', (ROOT / "host/analysis/analysis_json.cpp").read_text()))
+        self.assertGreater(len(keys), 40)
+        for key in keys - {"value", "sigma"}:
+            self.assertRegex(formats, rf"[`.,]{key}[`.,]", key)
+
     def test_commands_in_the_documents_work(self):
         for document in documents():
             for block in shell_blocks(document.read_text()):
@@ -84,7 +91,7 @@ class DocsTest(ProgramTest):
                     self.assertTrue((document.parent / target).exists(), f"{document}: {target}")
 
     def test_every_subcommand_has_an_example_in_its_help(self):
-        for command in ("calibrate", "replay", "run", "simulate"):
+        for command in ("analyze", "calibrate", "replay", "run", "simulate"):
             self.assertIn(f"  penduline {command} ", run(command, "--help").stdout)
 
 
