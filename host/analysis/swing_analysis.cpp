@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "host/analysis/free_span.hpp"
+
 namespace penduline {
 namespace {
 
@@ -179,45 +181,6 @@ void describe_decay(SwingAnalysis& analysis) {
   }
 }
 
-void compare(SwingAnalysis& analysis) {
-  const SwingFit& fit = analysis.friction.chosen;
-  Comparison& result = analysis.comparison;
-  const auto count1 = fit.residual1_rad.size();
-  const auto count = count1 + fit.residual2_rad.size();
-  Eigen::VectorXd all(count);
-  all << fit.residual1_rad, fit.residual2_rad;
-  result.rms_rad = std::sqrt(all.squaredNorm() / static_cast<double>(count));
-  Eigen::Index where = 0;
-  result.max_rad = all.cwiseAbs().maxCoeff(&where);
-  result.max_at_s = analysis.series.t_s[static_cast<std::size_t>(where % count1)];
-  const auto correlation = [&](Eigen::Index lag) {
-    const double first = autocorrelation(fit.residual1_rad, lag);
-    return fit.planar ? first : (first + autocorrelation(fit.residual2_rad, lag)) / 2;
-  };
-  result.next_correlation = correlation(1);
-  const auto period_rows =
-      static_cast<Eigen::Index>(small_period_of(fit.model) / analysis.series.period_s());
-  for (Eigen::Index lag = 1; lag <= std::min(period_rows, count1 - 1); ++lag) {
-    if (std::abs(correlation(lag)) > std::abs(result.most_correlation)) {
-      result.most_correlation = correlation(lag);
-      result.most_correlation_lag_s = static_cast<double>(lag) * analysis.series.period_s();
-    }
-  }
-  result.white_limit = 2 / std::sqrt(static_cast<double>(count));
-  result.repetition = fit.repetition;
-  // residual = -rate delay.
-  Eigen::MatrixXd rates(count, 1);
-  const auto path = swing_path(fit.model.swing, fit.model.start, analysis.series.t_s);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& state = path[static_cast<std::size_t>(i % count1)];
-    rates(i, 0) = i < count1 ? -state.omega1_rad_s : -state.omega2_rad_s;
-  }
-  result.delay_s =
-      fit_linear(rates, all, Eigen::VectorXd::Constant(count, std::max(result.rms_rad, 1e-12)))
-          .factor(0);
-  result.delay_s.sigma *= std::sqrt(fit.repetition);
-}
-
 void describe_period(SwingAnalysis& analysis) {
   const SwingFit& fit = analysis.friction.chosen;
   analysis.small_period_s = fit.figure(small_period_of);
@@ -269,7 +232,7 @@ tl::expected<SwingAnalysis, Error> analyze_swing(const AngleSeries& series,
   };
   analysis.energy_at_start_per_mgl = energy_after(0);
   analysis.energy_at_end_per_mgl = energy_after(duration_s);
-  compare(analysis);
+  analysis.comparison = compare_with_simulation(analysis.series, fit);
   return analysis;
 }
 

@@ -6,8 +6,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "common/dynamics.hpp"
-#include "host/analysis/free_span.hpp"
+#include "host/analysis/comparison.hpp"
 #include "host/analysis/friction_choice.hpp"
 #include "host/analysis/swing_trends.hpp"
 
@@ -30,20 +29,6 @@ struct DecayPoint {
   double model_semi_major_rad = 0;
   double energy_per_mgl = 0;  ///< of the ellipse (analysis.md eq. 6)
   double model_energy_per_mgl = 0;
-};
-
-/// What experiment and simulation differ by.
-struct Comparison {
-  double rms_rad = 0;
-  double max_rad = 0;
-  double max_at_s = 0;
-  double next_correlation = 0;  ///< of each residual with the next
-  double most_correlation = 0;  ///< of the largest size at lags up to a period
-  double most_correlation_lag_s = 0;
-  double white_limit = 0;  ///< what noise alone stays below, 19 times of 20
-  double repetition =
-      1;  ///< the figures' variances count residuals that repeat each other so often once
-  Measured delay_s;  ///< by which the experiment lags behind the simulation
 };
 
 struct SwingAnalysis {

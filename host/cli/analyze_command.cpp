@@ -69,6 +69,9 @@ tl::expected<void, Error> write_report(const AnalyzeOptions& options,
 }
 
 ExitStatus analyze(const AnalyzeOptions& options) {
+  if (options.path == "-") {
+    return log_failure({"found the standard input, expected a file: it is read more than once"});
+  }
   const std::array<std::string, 4> paths{options.path, options.rig_path, options.output_path,
                                          options.plot_path};
   if (const auto distinct = require_distinct_files(paths); !distinct) {

@@ -115,6 +115,10 @@ class AnalyzeTest(ProgramTest):
         done = run("analyze", recording, status=1)
         self.assertIn("found no angles; a recording needs --rig", done.stderr)
 
+    def test_the_standard_input_is_refused(self):
+        self.assertIn("found the standard input, expected a file",
+                      run("analyze", "-", status=1).stderr)
+
     def test_strict_tells_of_rows_left_out(self):
         omega = 2 * math.pi / 1.1
         table = self.angles(lambda t: 0.1 * math.cos(omega * t))
