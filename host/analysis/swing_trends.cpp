@@ -21,14 +21,14 @@ Eigen::VectorXd integral(const std::vector<SwingEllipse>& ellipses, const Quanti
 }
 
 /// Values and sigmas of one figure of the ellipses.
-struct Column {
+struct EllipseColumn {
   Eigen::VectorXd values;
   Eigen::VectorXd sigmas;
 };
 
-Column column_of(const std::vector<SwingEllipse>& ellipses, Measured SwingEllipse::*figure) {
+EllipseColumn column_of(const std::vector<SwingEllipse>& ellipses, Measured SwingEllipse::*figure) {
   const auto rows = static_cast<Eigen::Index>(ellipses.size());
-  Column column{.values = Eigen::VectorXd(rows), .sigmas = Eigen::VectorXd(rows)};
+  EllipseColumn column{.values = Eigen::VectorXd(rows), .sigmas = Eigen::VectorXd(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Measured& here = ellipses[static_cast<std::size_t>(i)].*figure;
     column.values[i] = here.value;
@@ -65,7 +65,7 @@ double foucault_rate_rad_s(double latitude_rad) {
 std::optional<PeriodTrend> period_trend(const std::vector<SwingEllipse>& ellipses,
                                         double small_period_s) {
   constexpr std::size_t kFewest = 4;
-  const Column phase = column_of(ellipses, &SwingEllipse::phase_rad);
+  const EllipseColumn phase = column_of(ellipses, &SwingEllipse::phase_rad);
   if (ellipses.size() < kFewest || !(phase.sigmas.minCoeff() > 0)) {
     return std::nullopt;
   }
@@ -115,7 +115,7 @@ std::optional<Precession> precession(const std::vector<SwingEllipse>& ellipses,
                                      double omega0_rad_s) {
   constexpr std::size_t kFewest = 3;
   constexpr double kKnownRad = 0.3;
-  const Column angle = column_of(ellipses, &SwingEllipse::orientation_rad);
+  const EllipseColumn angle = column_of(ellipses, &SwingEllipse::orientation_rad);
   if (ellipses.size() < kFewest || !(angle.sigmas.minCoeff() > 0) ||
       angle.sigmas.maxCoeff() > kKnownRad) {
     return std::nullopt;
