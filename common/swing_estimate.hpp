@@ -7,6 +7,7 @@
 
 #include "common/disc_plane.hpp"
 #include "common/estimate.hpp"
+#include "common/gap_gradient.hpp"
 #include "common/gap_measurement.hpp"
 #include "common/rig.hpp"
 #include "common/swing_filter.hpp"
@@ -21,7 +22,7 @@ void put_state(const Rig<Scalar>& rig, const typename SwingFilter<Scalar>::State
                const typename Estimate<Scalar>::Pair& variance_rad2,
                const GapMeasurements<Scalar>& measured, Estimate<Scalar>& estimate) {
   const Angles<Scalar> angles{.theta1_rad = state[0], .theta2_rad = state[1]};
-  const DiscPlane<Scalar> plane(slopes_of(angles));
+  const DiscPlane<Scalar> plane = tilt_at(angles).plane;
   estimate.attitude = {.angles = angles, .mass_m = rig.pendulum.length_m * plane.rod()};
   estimate.omega_rad_s = {.first = state[2], .second = state[3]};
   estimate.sigma_rad = {.first = std::sqrt(variance_rad2.first),

@@ -2,11 +2,9 @@
 // An extended Kalman filter on the pendulum's own dynamics: its state, its algebra.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 
 #include "common/dynamics.hpp"
 #include "common/filter_trust.hpp"
@@ -39,6 +37,7 @@ class SwingFilter {
   void begin(const Angles<Scalar>& angles, Scalar theta_sigma_rad, Scalar omega_sigma_rad_s) {
     state_ = {angles.theta1_rad, angles.theta2_rad};
     state_[kDamping] = pendulum_.damping_per_s;
+    tilt_ = tilt_of(state_);
     for (auto& row : covariance_) {
       row.fill(0);
     }
@@ -64,6 +63,7 @@ class SwingFilter {
     for (std::size_t i = 0; i < kMotion; ++i) {
       state_[i] = step.motion[static_cast<Eigen::Index>(i)];
     }
+    tilt_ = tilt_of(state_);
     const Transition transition = transition_of(step.jacobian, stiffness);
     transform(transition);
     const Scalar power = acceleration * acceleration * seconds;
@@ -88,8 +88,8 @@ class SwingFilter {
     [[nodiscard]] Scalar normalized_square() const { return misfit_m * misfit_m / variance_m2; }
   };
   [[nodiscard]] Innovation innovation(const GapMeasurement<Scalar>& measured) const {
-    const Expected expected = expect(state_, measured.sensor);
-    const std::array<Scalar, kMostStates> spread = spread_of(expected, measured.sensor);
+    const Expected expected = expect(measured.sensor);
+    const State spread = spread_of(expected, measured.sensor);
     return {.misfit_m = measured.gap_m - expected.gap_m,
             .variance_m2 = along(expected, measured.sensor, spread) + measured.variance_m2};
   }
@@ -100,13 +100,13 @@ class SwingFilter {
     constexpr int kMostRounds = 3;
     const State before = state_;
     const std::size_t learned_from = motion_only ? kMotion : states_;
-    Expected expected = expect(before, measured.sensor);
+    Expected expected = expect(measured.sensor);
     for (int round = 1;; ++round) {
-      const std::array<Scalar, kMostStates> spread = spread_of(expected, measured.sensor);
+      const State spread = spread_of(expected, measured.sensor);
       const Scalar variance = along(expected, measured.sensor, spread) + measured.variance_m2;
-      Scalar misfit = measured.gap_m - expected.gap_m;
-      misfit -= along(expected, measured.sensor, difference(before, state_));
-      std::array<Scalar, kMostStates> gain{};
+      const Scalar misfit =
+          measured.gap_m - expected.gap_m - change(expected, measured.sensor, state_, before);
+      State gain{};
       for (std::size_t i = 0; i < learned_from; ++i) {
         gain[i] = spread[i] / variance;
       }
@@ -114,9 +114,10 @@ class SwingFilter {
       for (std::size_t i = 0; i < states_; ++i) {
         state_[i] = before[i] + gain[i] * misfit;
       }
-      const Expected next = expect(state_, measured.sensor);
+      tilt_ = tilt_of(state_);
+      const Expected next = expect(measured.sensor);
       const Scalar bend =
-          next.gap_m - expected.gap_m - along(expected, measured.sensor, difference(state_, last));
+          next.gap_m - expected.gap_m - change(expected, measured.sensor, last, state_);
       if (round == kMostRounds || 100 * bend * bend < measured.variance_m2) {
         narrow(expected, measured, spread, gain);
         return;
@@ -137,6 +138,15 @@ class SwingFilter {
   [[nodiscard]] Scalar variance(std::size_t i) const { return covariance_[i][i]; }
   [[nodiscard]] Scalar covariance(std::size_t i, std::size_t j) const { return covariance_[i][j]; }
   [[nodiscard]] std::size_t states() const { return states_; }
+  /// Whether the state and its variances are numbers: measurements that contradict the rig by far
+  /// may take it where there are none.
+  [[nodiscard]] bool is_finite() const {
+    Scalar sum = 0;
+    for (std::size_t i = 0; i < states_; ++i) {
+      sum += state_[i] + covariance_[i][i];
+    }
+    return std::isfinite(sum);
+  }
   [[nodiscard]] Scalar length_m() const { return pendulum_.length_m * std::exp(state_[kLength]); }
 
  private:
@@ -144,31 +154,34 @@ class SwingFilter {
 
   [[nodiscard]] Scalar stiffness_1_s2() const { return pendulum_.gravity_m_s2 / length_m(); }
 
-  /// The gap that a state makes one expect; its derivative by the sensor's own offset is 1.
-  [[nodiscard]] Expected expect(const State& state, std::size_t sensor) const {
-    Expected expected = gap_gradient(
-        layout_, sensor, Angles<Scalar>{.theta1_rad = state[0], .theta2_rad = state[1]});
-    expected.gap_m += state[kOffsets + sensor];
+  [[nodiscard]] static Tilt<Scalar> tilt_of(const State& state) {
+    return tilt_at(Angles<Scalar>{.theta1_rad = state[0], .theta2_rad = state[1]});
+  }
+
+  /// The gap that the state makes one expect; its derivative by the sensor's own offset is 1.
+  [[nodiscard]] Expected expect(std::size_t sensor) const {
+    Expected expected = gap_gradient(layout_, sensor, tilt_);
+    expected.gap_m += state_[kOffsets + sensor];
     return expected;
   }
 
-  [[nodiscard]] static State difference(const State& a, const State& b) {
-    State result{};
-    std::ranges::transform(a, b, result.begin(), std::minus<Scalar>());
-    return result;
+  /// What an expected gap changes by from one state to another, to first order.
+  [[nodiscard]] static Scalar change(const Expected& expected, std::size_t sensor,
+                                     const State& from, const State& to) {
+    return expected.by_theta1_m * (to[0] - from[0]) + expected.by_theta2_m * (to[1] - from[1]) +
+           (to[kOffsets + sensor] - from[kOffsets + sensor]);
   }
 
   /// The derivative of an expected gap, times a vector.
   [[nodiscard]] static Scalar along(const Expected& expected, std::size_t sensor,
-                                    const std::array<Scalar, kMostStates>& vector) {
+                                    const State& vector) {
     return expected.by_theta1_m * vector[0] + expected.by_theta2_m * vector[1] +
            vector[kOffsets + sensor];
   }
 
   /// The covariance times the derivative of an expected gap.
-  [[nodiscard]] std::array<Scalar, kMostStates> spread_of(const Expected& expected,
-                                                          std::size_t sensor) const {
-    std::array<Scalar, kMostStates> spread{};
+  [[nodiscard]] State spread_of(const Expected& expected, std::size_t sensor) const {
+    State spread{};
     for (std::size_t i = 0; i < states_; ++i) {
       spread[i] = along(expected, sensor, covariance_[i]);
     }
@@ -189,7 +202,7 @@ class SwingFilter {
 
   /// F P F' (method.md eq. 26), F the identity but for the motion's rows.
   void transform(const Transition& by) {
-    std::array<std::array<Scalar, kMostStates>, kMotion> half{};
+    std::array<State, kMotion> half{};
     for (std::size_t i = 0; i < kMotion; ++i) {
       for (std::size_t j = 0; j < states_; ++j) {
         for (std::size_t k = 0; k < kOffsets; ++k) {
@@ -213,15 +226,14 @@ class SwingFilter {
 
   /// Covariance after a measurement in Joseph's form, right for any gain and never negative
   /// (method.md eq. 30).
-  void narrow(const Expected& expected, const GapMeasurement<Scalar>& measured,
-              const std::array<Scalar, kMostStates>& spread,
-              const std::array<Scalar, kMostStates>& gain) {
+  void narrow(const Expected& expected, const GapMeasurement<Scalar>& measured, const State& spread,
+              const State& gain) {
     for (std::size_t i = 0; i < states_; ++i) {
       for (std::size_t j = 0; j < states_; ++j) {
         covariance_[i][j] -= gain[i] * spread[j];
       }
     }
-    const std::array<Scalar, kMostStates> rest = spread_of(expected, measured.sensor);
+    const State rest = spread_of(expected, measured.sensor);
     for (std::size_t i = 0; i < states_; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         const Scalar value =
@@ -236,7 +248,8 @@ class SwingFilter {
   FilterTrust<Scalar> trust_;
   std::size_t states_;
   State state_{};
-  std::array<std::array<Scalar, kMostStates>, kMostStates> covariance_{};
+  Tilt<Scalar> tilt_;  ///< at `state_`
+  std::array<State, kMostStates> covariance_{};
 };
 
 }  // namespace penduline

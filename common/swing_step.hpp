@@ -57,17 +57,19 @@ template <class Scalar>
   change.motion << omega1, omega2, turn * omega2 - stiffness * pull1 - damping * omega1,
       -sin2 * cos2 * omega1 * omega1 - stiffness * pull2 - damping * omega2;
 
-  Eigen::Matrix<Scalar, 2, 2> by_theta;
-  by_theta << -stiffness * cos1 * secant2,
-      (2 * omega1 * omega2 * secant2 - stiffness * sin1 * tan2) * secant2, stiffness * sin1 * sin2,
-      (sin2 * sin2 - cos2 * cos2) * omega1 * omega1 - stiffness * cos1 * cos2;
-  Eigen::Matrix<Scalar, 2, 2> by_omega;
-  by_omega << 2 * tan2 * omega2 - damping, turn, -2 * sin2 * cos2 * omega1, -damping;
-
-  change.jacobian.template topRows<2>() = at.jacobian.template bottomRows<2>();
-  change.jacobian.template bottomRows<2>().noalias() =
-      by_theta * at.jacobian.template topRows<2>() +
-      by_omega * at.jacobian.template bottomRows<2>();
+  // Derivatives of the accelerations by theta1, theta2, omega1, omega2.
+  const SwingVector<Scalar> of_1(
+      -stiffness * cos1 * secant2,
+      (2 * omega1 * omega2 * secant2 - stiffness * sin1 * tan2) * secant2,
+      2 * tan2 * omega2 - damping, turn);
+  const SwingVector<Scalar> of_2(
+      stiffness * sin1 * sin2,
+      (sin2 * sin2 - cos2 * cos2) * omega1 * omega1 - stiffness * cos1 * cos2,
+      -2 * sin2 * cos2 * omega1, -damping);
+  for (Eigen::Index i = 0; i < change.jacobian.cols(); ++i) {
+    const auto column = at.jacobian.col(i);
+    change.jacobian.col(i) << column[2], column[3], of_1.dot(column), of_2.dot(column);
+  }
   change.jacobian(2, 4) -= pull1;
   change.jacobian(3, 4) -= pull2;
   change.jacobian(2, 5) -= omega1;

@@ -58,6 +58,7 @@ class SwingTracker {
     } else {
       follow(measured, sample.t_us, estimate.flags, witness);
     }
+    begun_ = begun_ && filter_.is_finite();
     last_t_us_ = sample.t_us;
     if (begun_) {
       put_state(rig_, filter_.state(),
