@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The angles that the board itself finds, and the rig that it needs for them: uploaded, stored,
-// used.
+// used by the estimator that it names.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,11 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "common/estimate.hpp"
 #include "common/pipeline.hpp"
+#include "common/swing_tracker.hpp"
 #include "common/wire/commands.hpp"
 #include "common/wire/rig_image.hpp"
 #include "firmware/rig_store.hpp"
@@ -28,29 +30,41 @@ class OnboardEstimate {
   explicit OnboardEstimate(BoardStore& store) : store_(store) {}
 
   /// Reads the store anew. `rate_millihz` is the rate of the samples to come, on which the filter
-  /// depends.
+  /// depends; the Kalman filter has no time for its work where it is above
+  /// wire::kMostKalmanMillihz.
   void use_stored_rig(std::uint32_t rate_millihz) {
     rate_millihz_ = rate_millihz;
     const StoredRig stored = read_rig(store_.contents());
     state_ = stored.state == wire::StoreState::kValid && !suits(stored.rig)
                  ? wire::StoreState::kDamaged
                  : stored.state;
-    pipeline_.reset();
-    if (state_ == wire::StoreState::kValid) {
-      pipeline_.emplace(
-          *stored.rig,
-          Acquisition<float>{.rate_hz = static_cast<float>(rate_millihz) / 1000,
-                             .full_scale_counts = kFullScaleCounts,
-                             .reference_v = static_cast<float>(Board::kReferenceUv) / 1e6F,
-                             .sensor_count = kChannels});
+    estimator_ = std::monostate();
+    if (state_ != wire::StoreState::kValid) {
+      return;
+    }
+    const Acquisition<float> acquisition{
+        .rate_hz = static_cast<float>(rate_millihz) / 1000,
+        .full_scale_counts = kFullScaleCounts,
+        .reference_v = static_cast<float>(Board::kReferenceUv) / 1e6F,
+        .sensor_count = kChannels};
+    if (stored.rig->estimator == wire::OnboardEstimator::kGaussNewton) {
+      estimator_.template emplace<Pipeline<float>>(stored.rig->rig, acquisition);
+    } else if (rate_millihz <= wire::kMostKalmanMillihz) {
+      estimator_.template emplace<SwingTracker<float>>(stored.rig->rig, acquisition);
     }
   }
 
   [[nodiscard]] wire::StoreState store_state() const { return state_; }
 
-  /// The estimate of a sample; none without a rig.
+  /// The estimate of a sample; none without an estimator that has a rig and the time.
   [[nodiscard]] std::optional<Estimate<float>> estimate(const Sample& sample) {
-    return pipeline_ ? std::optional(pipeline_->update(sample)) : std::nullopt;
+    if (auto* pipeline = std::get_if<Pipeline<float>>(&estimator_)) {
+      return pipeline->update(sample);
+    }
+    if (auto* tracker = std::get_if<SwingTracker<float>>(&estimator_)) {
+      return tracker->update(sample);
+    }
+    return std::nullopt;
   }
 
   wire::Result carry_out(const wire::BeginRig& command) { return upload_.begin(command); }
@@ -76,8 +90,8 @@ class OnboardEstimate {
 
  private:
   /// Whether a rig is one of this board's two sensors.
-  [[nodiscard]] static bool suits(const std::optional<Rig<float>>& rig) {
-    return rig && rig->layout.count == kChannels;
+  [[nodiscard]] static bool suits(const std::optional<wire::BoardRig>& rig) {
+    return rig && rig->rig.layout.count == kChannels;
   }
 
   /// Not inline, so that its rig is off the stack when the stored one is read.
@@ -88,7 +102,8 @@ class OnboardEstimate {
   BoardStore& store_;
   std::uint32_t rate_millihz_ = 0;
   wire::StoreState state_ = wire::StoreState::kEmpty;
-  std::optional<Pipeline<float>> pipeline_;
+  /// In one place, since each has a rig of its own.
+  std::variant<std::monostate, Pipeline<float>, SwingTracker<float>> estimator_;
   RigUpload upload_;
 };
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 
-#include "common/rig.hpp"
 #include "common/wire/bytes.hpp"
 #include "common/wire/choices.hpp"
 #include "common/wire/crc32.hpp"
@@ -21,7 +20,7 @@ namespace penduline {
 /// What stands in a store.
 struct StoredRig {
   wire::StoreState state = wire::StoreState::kEmpty;
-  std::optional<Rig<float>> rig;  ///< where the state is kValid
+  std::optional<wire::BoardRig> rig;  ///< where the state is kValid
 };
 
 namespace rig_store {
@@ -38,7 +37,7 @@ inline constexpr std::size_t kHeadBytes =
 }
 
 /// The rig, if that is what the contents are.
-[[nodiscard]] inline std::optional<Rig<float>> rig_in(std::span<const std::uint8_t> contents) {
+[[nodiscard]] inline std::optional<wire::BoardRig> rig_in(std::span<const std::uint8_t> contents) {
   if (contents.size() < kHeadBytes) {
     return std::nullopt;
   }

@@ -53,6 +53,19 @@ Response<float> narrowed(const Response<double>& response) {
       .peak_m = static_cast<float>(response.peak_m)};
 }
 
+SensorNoise<float> narrowed(const SensorNoise<double>& noise) {
+  return {.volts = static_cast<float>(noise.volts), .gap_m = static_cast<float>(noise.gap_m)};
+}
+
+FilterTrust<float> narrowed(const FilterTrust<double>& trust) {
+  return {.length_share = static_cast<float>(trust.length_share),
+          .damping_per_s = static_cast<float>(trust.damping_per_s),
+          .offset_m = static_cast<float>(trust.offset_m),
+          .acceleration_rad_s15 = static_cast<float>(trust.acceleration_rad_s15),
+          .damping_walk_per_s15 = static_cast<float>(trust.damping_walk_per_s15),
+          .offset_walk_m_s05 = static_cast<float>(trust.offset_walk_m_s05)};
+}
+
 }  // namespace
 
 Rig<float> narrowed(const Rig<double>& rig) {
@@ -62,12 +75,14 @@ Rig<float> narrowed(const Rig<double>& rig) {
                                  .damping_per_s = static_cast<float>(rig.pendulum.damping_per_s)},
                     .disc_diameter_m = static_cast<float>(rig.disc_diameter_m),
                     .layout = {},
-                    .filter = {}};
+                    .filter = {},
+                    .trust = narrowed(rig.trust)};
   narrow.layout.count = rig.layout.count;
   narrow.layout.disc_offset_m = static_cast<float>(rig.layout.disc_offset_m);
   for (std::size_t i = 0; i < rig.layout.count; ++i) {
     narrow.layout.position_m[i] = rig.layout.position_m[i].cast<float>();
     narrow.responses[i] = narrowed(rig.responses[i]);
+    narrow.noise[i] = narrowed(rig.noise[i]);
   }
   if (rig.filter) {
     narrow.filter = {.order = rig.filter->order,
@@ -77,9 +92,10 @@ Rig<float> narrowed(const Rig<double>& rig) {
 }
 
 tl::expected<std::vector<std::uint8_t>, Error> rig_image(const Rig<double>& rig,
+                                                         wire::OnboardEstimator estimator,
                                                          const std::string& name) {
   std::vector<std::uint8_t> image(wire::kMaxRigImageBytes);
-  image.resize(wire::encode_rig(narrowed(rig), image));
+  image.resize(wire::encode_rig({.rig = narrowed(rig), .estimator = estimator}, image));
   if (image.empty()) {
     return failure(fmt::format("{}: the rig takes more than the {} bytes that a board has for it",
                                name, wire::kMaxRigImageBytes));

@@ -74,6 +74,15 @@ inline constexpr std::array kStoreStates = {
     Choice<StoreState>{StoreState::kDamaged, "damaged", "something is stored, but not a rig"},
 };
 
+enum class OnboardEstimator : std::uint8_t { kGaussNewton = 0, kKalman = 1 };
+
+inline constexpr std::array kOnboardEstimators = {
+    Choice<OnboardEstimator>{OnboardEstimator::kGaussNewton, "gn",
+                             "filter and Gauss-Newton: angles, late by the filter"},
+    Choice<OnboardEstimator>{OnboardEstimator::kKalman, "ekf",
+                             "Kalman filter: angles, rates and their uncertainty, up to 100 Hz"},
+};
+
 enum class Result : std::uint8_t {
   kDone = 0,
   kUnknownCommand = 1,

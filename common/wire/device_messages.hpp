@@ -144,6 +144,10 @@ struct AnglesMessage {
   float theta2_rad = 0;
   float residual_m = 0;
   std::uint32_t flags = 0;
+  float omega1_rad_s = 0;
+  float omega2_rad_s = 0;
+  float sigma1_rad = 0;
+  float sigma2_rad = 0;
 
   static constexpr auto fields() {
     return std::tuple{
@@ -153,6 +157,13 @@ struct AnglesMessage {
         Field{"theta2_rad", &AnglesMessage::theta2_rad, "NaN where there is no answer"},
         Field{"residual_m", &AnglesMessage::residual_m, "RMS misfit of the gaps; NaN likewise"},
         Field{"flags", &AnglesMessage::flags, "the estimate's flags"},
+        Field{"omega1_rad_s", &AnglesMessage::omega1_rad_s,
+              "rate of theta1; NaN of an estimator that does not know it"},
+        Field{"omega2_rad_s", &AnglesMessage::omega2_rad_s, "rate of theta2; NaN likewise"},
+        Field{"sigma1_rad", &AnglesMessage::sigma1_rad,
+              "standard deviation of theta1; NaN of an estimator that does not know it"},
+        Field{"sigma2_rad", &AnglesMessage::sigma2_rad,
+              "standard deviation of theta2; NaN likewise"},
     };
   }
 };

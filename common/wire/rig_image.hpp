@@ -13,14 +13,25 @@
 #include "common/closed_form.hpp"
 #include "common/rig.hpp"
 #include "common/wire/bytes.hpp"
+#include "common/wire/choices.hpp"
 
 namespace penduline::wire {
 
-/// The first byte of an image.
-inline constexpr std::uint8_t kRigImageVersion = 1;
+/// The first byte of an image. The first version ended with the sensors.
+inline constexpr std::uint8_t kRigImageVersion = 2;
+inline constexpr std::uint8_t kFirstRigImageVersion = 1;
 
-/// What a board keeps for an image: two sensors with the longest tables take 596 bytes, eight
-/// linear ones 296.
+/// The rate from which on a board does not run the Kalman filter: samples go first.
+inline constexpr std::uint32_t kMostKalmanMillihz = 100'000;
+
+/// A rig for a board, and what it is to find the angles by.
+struct BoardRig {
+  Rig<float> rig;
+  OnboardEstimator estimator = OnboardEstimator::kGaussNewton;
+};
+
+/// What a board keeps for an image: two sensors with the longest tables take 637 bytes, eight
+/// linear ones 385.
 inline constexpr std::size_t kMaxRigImageBytes = 1024;
 
 /// The byte that says which response model follows.
@@ -65,8 +76,21 @@ inline void write_model(const PolynomialResponse<float>& curve, ByteWriter& writ
   }
 }
 
+/// Calls `visit` with each number of the trust, in the order of the image.
+template <class Trust, class Visitor>
+void for_each_trust(Trust& trust, const Visitor& visit) {
+  visit(trust.length_share);
+  visit(trust.damping_per_s);
+  visit(trust.offset_m);
+  visit(trust.acceleration_rad_s15);
+  visit(trust.damping_walk_per_s15);
+  visit(trust.offset_walk_m_s05);
+}
+
 /// Writes the rig's image. Returns its bytes; 0 where `out` is too small.
-[[nodiscard]] inline std::size_t encode_rig(const Rig<float>& rig, std::span<std::uint8_t> out) {
+[[nodiscard]] inline std::size_t encode_rig(const BoardRig& board_rig,
+                                            std::span<std::uint8_t> out) {
+  const Rig<float>& rig = board_rig.rig;
   ByteWriter writer(out);
   writer.put(kRigImageVersion);
   writer.put(rig.pendulum.length_m);
@@ -91,6 +115,12 @@ inline void write_model(const PolynomialResponse<float>& curve, ByteWriter& writ
     writer.put(response.peak_m);
     std::visit([&](const auto& curve) { write_model(curve, writer); }, response.model);
   }
+  writer.put(board_rig.estimator);
+  for (std::size_t i = 0; i < rig.layout.count; ++i) {
+    writer.put(rig.noise[i].volts);
+    writer.put(rig.noise[i].gap_m);
+  }
+  for_each_trust(rig.trust, [&](float number) { writer.put(number); });
   return writer.fits() ? writer.size() : 0;
 }
 
@@ -99,8 +129,9 @@ class RigImageReader {
  public:
   explicit RigImageReader(std::span<const std::uint8_t> image) : reader_(image) {}
 
-  void read(Rig<float>& rig) {
-    require(reader_.take<std::uint8_t>() == kRigImageVersion);
+  void read(BoardRig& board_rig) {
+    Rig<float>& rig = board_rig.rig;
+    const std::size_t version = count(kFirstRigImageVersion, kRigImageVersion);
     rig.pendulum.length_m = above_zero();
     rig.pendulum.mass_kg = above_zero();
     rig.pendulum.gravity_m_s2 = above_zero();
@@ -121,12 +152,29 @@ class RigImageReader {
       read(rig.responses[i]);
     }
     require(determines_tilt(rig.layout));
+    if (version == kFirstRigImageVersion) {
+      return;
+    }
+    board_rig.estimator = static_cast<OnboardEstimator>(count(0, kOnboardEstimators.size() - 1));
+    for (std::size_t i = 0; i < rig.layout.count; ++i) {
+      rig.noise[i] = {.volts = up_to(kMostNoise), .gap_m = up_to(kMostNoise)};
+      require(rig.noise[i].volts > 0 || rig.noise[i].gap_m > 0);
+    }
+    for_each_trust(rig.trust, [&](float& number) { number = up_to(kMostTrust); });
+    require(rig.trust.acceleration_rad_s15 > 0);
+    // A shorter pendulum is more steps of its motion than a board has time for.
+    require(board_rig.estimator != OnboardEstimator::kKalman ||
+            rig.pendulum.gravity_m_s2 <= kMostGravityPerLength * rig.pendulum.length_m);
   }
 
   /// Whether every rule held and the image ended where it should.
   [[nodiscard]] bool valid() const { return valid_ && reader_.used_up(); }
 
  private:
+  static constexpr float kMostNoise = 10;               ///< volts, or metres
+  static constexpr float kMostTrust = 1000;             ///< in the unit of each
+  static constexpr float kMostGravityPerLength = 1000;  ///< 1/s^2
+
   void require(bool kept) { valid_ = valid_ && kept; }
 
   [[nodiscard]] float finite() {
@@ -142,6 +190,11 @@ class RigImageReader {
   [[nodiscard]] float not_negative() {
     const float value = finite();
     require(value >= 0);
+    return value;
+  }
+  [[nodiscard]] float up_to(float most) {
+    const float value = not_negative();
+    require(value <= most);
     return value;
   }
   /// `least` where the number is not allowed, so that no loop runs away.
@@ -231,8 +284,8 @@ class RigImageReader {
 };
 
 /// The rig in an image; nothing unless the pipeline can work with every number in it.
-[[nodiscard]] inline std::optional<Rig<float>> decode_rig(std::span<const std::uint8_t> image) {
-  std::optional<Rig<float>> rig;
+[[nodiscard]] inline std::optional<BoardRig> decode_rig(std::span<const std::uint8_t> image) {
+  std::optional<BoardRig> rig;
   rig.emplace();
   RigImageReader reader(image);
   reader.read(*rig);

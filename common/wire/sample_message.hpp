@@ -53,17 +53,22 @@ inline constexpr std::size_t kWireSensors = 2;
 /// The message for an estimate; NaN for what it does not know.
 [[nodiscard]] inline AnglesMessage angles_message_of(const Estimate<float>& estimate) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  AnglesMessage message{.seq = estimate.seq,
-                        .t_us = estimate.t_us,
-                        .theta1_rad = kNone,
-                        .theta2_rad = kNone,
-                        .residual_m = estimate.residual_m.value_or(kNone),
-                        .flags = estimate.flags};
-  if (estimate.attitude) {
-    message.theta1_rad = estimate.attitude->angles.theta1_rad;
-    message.theta2_rad = estimate.attitude->angles.theta2_rad;
-  }
-  return message;
+  constexpr Estimate<float>::Pair kNeither{.first = kNone, .second = kNone};
+  const Angles<float> angles = estimate.attitude
+                                   ? estimate.attitude->angles
+                                   : Angles<float>{.theta1_rad = kNone, .theta2_rad = kNone};
+  const auto omega_rad_s = estimate.omega_rad_s.value_or(kNeither);
+  const auto sigma_rad = estimate.sigma_rad.value_or(kNeither);
+  return {.seq = estimate.seq,
+          .t_us = estimate.t_us,
+          .theta1_rad = angles.theta1_rad,
+          .theta2_rad = angles.theta2_rad,
+          .residual_m = estimate.residual_m.value_or(kNone),
+          .flags = estimate.flags,
+          .omega1_rad_s = omega_rad_s.first,
+          .omega2_rad_s = omega_rad_s.second,
+          .sigma1_rad = sigma_rad.first,
+          .sigma2_rad = sigma_rad.second};
 }
 
 }  // namespace penduline::wire

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// rig_image RIG.toml IMAGE: the image that a host uploads, for the tests of the boards.
+// rig_image RIG.toml IMAGE gn|ekf: the image that a host uploads, for the tests of the boards.
 #include <fmt/format.h>
 
 #include <fstream>
+#include <string_view>
 
 #include "host/rig_file.hpp"
 #include "host/rig_image.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "usage: rig_image RIG.toml IMAGE\n");
+  if (argc != 4) {
+    fmt::print(stderr, "usage: rig_image RIG.toml IMAGE gn|ekf\n");
     return 2;
   }
   const auto rig = penduline::read_rig_file(argv[1]);
-  const auto image = rig ? penduline::rig_image(rig->rig, argv[1]) : tl::unexpected(rig.error());
+  const auto estimator = argv[3] == std::string_view("ekf")
+                             ? penduline::wire::OnboardEstimator::kKalman
+                             : penduline::wire::OnboardEstimator::kGaussNewton;
+  const auto image =
+      rig ? penduline::rig_image(rig->rig, estimator, argv[1]) : tl::unexpected(rig.error());
   if (!image) {
     fmt::print(stderr, "error: {}\n", image.error().message);
     return 1;

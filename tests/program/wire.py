@@ -14,7 +14,8 @@ FROM_BOARD = (
      "t_us samples dropped_frames bad_frames overruns late_max_us load_permille temperature_cdeg "
      "stack_free_bytes reset_cause resets fault_pc fault_line fault_file store rate_millihz "
      "emitter_mode"),
-    ("Angles", 0x04, "QqfffI", "seq t_us theta1_rad theta2_rad residual_m flags"),
+    ("Angles", 0x04, "QqfffIffff",
+     "seq t_us theta1_rad theta2_rad residual_m flags omega1_rad_s omega2_rad_s sigma1_rad sigma2_rad"),
     ("Pong", 0x05, "IQ", "token t_us"),
     ("Reply", 0x06, "BBB", "command token result"),
 )
@@ -92,12 +93,18 @@ class Splitter:
 STORE_VALID, STORE_DAMAGED = 1, 2
 
 
-def rig_image(gap_at_zero_m, slope_m_per_v, offset_m, arm_m):
+# How a board finds the angles, and what the program believes where a rig file says nothing (common/filter_trust.hpp).
+GAUSS_NEWTON, KALMAN = 0, 1
+NOISE_V, NOISE_M = 0.0005, 10e-6
+TRUST = (0.02, 0.3, 0, 0.002, 0.005, 0)
+
+
+def rig_image(gap_at_zero_m, slope_m_per_v, offset_m, arm_m, estimator=GAUSS_NEWTON):
     """The image of a rig with two linear sensors, `arm_m` from the pivot along X and Y."""
-    image = struct.pack("<BffffffBB", 1, 0.3, 0.1, 9.8, 0.01, offset_m, 0.12, 0, 2)
+    image = struct.pack("<BffffffBB", 2, 0.3, 0.1, 9.8, 0.01, offset_m, 0.12, 0, 2)
     for position in ((arm_m, 0, 0), (0, arm_m, 0)):
         image += struct.pack("<ffffffBff", *position, 0, 0.1, 0, 0, gap_at_zero_m, slope_m_per_v)
-    return image
+    return image + struct.pack("<B4f6f", estimator, *(2 * (NOISE_V, NOISE_M)), *TRUST)
 
 
 def stored(image):

@@ -145,8 +145,8 @@ TEST_CASE("Noise alone is bad frames, as many as it has runs between zeros", "[p
   });
 }
 
-/// A rig of any layout with a linear sensor at each place.
-Rig<float> any_rig() {
+/// A rig of any layout with a linear sensor at each place, for any estimator.
+BoardRig any_rig() {
   Rig<float> rig;
   rig.layout = rounded_layout(*any_layout());
   for (std::size_t i = 0; i < rig.layout.count; ++i) {
@@ -157,10 +157,14 @@ Rig<float> any_rig() {
     rig.filter = FilterDesign<float>{*rc::gen::inRange<std::size_t>(0, kMaxTaps),
                                      static_cast<float>(*in_steps(0.01, 1))};
   }
-  return rig;
+  rig.noise[1].volts = static_cast<float>(*in_steps(0, 0.01));
+  rig.trust.offset_m = static_cast<float>(*in_steps(0, 0.001));
+  return {
+      .rig = rig,
+      .estimator = *rc::gen::element(OnboardEstimator::kGaussNewton, OnboardEstimator::kKalman)};
 }
 
-Bytes image_of(const Rig<float>& rig) {
+Bytes image_of(const BoardRig& rig) {
   Bytes image(kMaxRigImageBytes);
   image.resize(encode_rig(rig, image));
   return image;

@@ -22,6 +22,7 @@ const kMessages = {
   }],
   Angles: [0x04, {
     seq: 'u64', t_us: 'i64', theta1_rad: 'f32', theta2_rad: 'f32', residual_m: 'f32', flags: 'u32',
+    omega1_rad_s: 'f32', omega2_rad_s: 'f32', sigma1_rad: 'f32', sigma2_rad: 'f32',
   }],
   Pong: [0x05, { token: 'u32', t_us: 'u64' }],
   Reply: [0x06, { command: 'u8', token: 'u8', result: 'u8' }],

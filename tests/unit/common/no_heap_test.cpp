@@ -173,7 +173,8 @@ void run_wire() {
     });
   });
   std::array<std::uint8_t, wire::kMaxRigImageBytes> image{};
-  const std::size_t size = wire::encode_rig(linear_rig(three_sensor_layout<float>()), image);
+  const std::size_t size =
+      wire::encode_rig({.rig = linear_rig(three_sensor_layout<float>())}, image);
   if (read != std::tuple_size_v<wire::AllMessages> ||
       !wire::decode_rig(std::span(image).first(size))) {
     std::abort();

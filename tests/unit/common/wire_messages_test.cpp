@@ -31,9 +31,9 @@ constexpr std::array<std::string_view, std::tuple_size_v<AllMessages>> kExampleF
     "07 03 14 1a 99 be 1c 01 01 03 a5 09 01 01 01 01 01 02 01 01 01 02 02 01 01 02 03 01 "
     "01 02 11 02 fa 03 e3 09 04 04 04 07 03 bc 0a 02 10 01 0c 73 61 6d 70 6c 65 72 2e 63 "
     "70 70 01 01 01 01 04 01 20 4e 01 06 02 1d ec ef 32 00",
-    // QqfffI
+    // QqfffIffff
     "04 04 a5 09 01 01 01 01 01 09 b0 3c ff ff ff ff ff ff 01 03 80 3e 01 01 06 bf ac c5 "
-    "27 37 02 10 01 05 08 61 59 06 00",
+    "27 37 02 10 01 01 01 03 c0 3f 01 01 0e c0 6f 12 83 3a 6f 12 03 3b 5d 51 2f 7b 00",
     // IQ
     "06 05 ef cd ab 89 05 f2 05 2a 01 01 01 05 ce a5 c8 49 00",
     // BBB

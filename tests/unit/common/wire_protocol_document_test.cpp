@@ -101,6 +101,7 @@ TEST_CASE("The document has every enumeration's table", "[wire][document]") {
   CHECK_THAT(text, Catch::Contains("\n" + choice_table("RebootTarget", kRebootTargets)));
   CHECK_THAT(text, Catch::Contains("\n" + choice_table("ResetCause", kResetCauses)));
   CHECK_THAT(text, Catch::Contains("\n" + choice_table("StoreState", kStoreStates)));
+  CHECK_THAT(text, Catch::Contains("\n" + choice_table("OnboardEstimator", kOnboardEstimators)));
   CHECK_THAT(text, Catch::Contains("\n" + choice_table("Result", kResults)));
 }
 

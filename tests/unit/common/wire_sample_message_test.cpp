@@ -69,6 +69,8 @@ TEST_CASE("A sample that does not fit has no message", "[wire]") {
 TEST_CASE("An estimate's numbers stand in its message", "[wire]") {
   Estimate<float> estimate{.t_us = -20, .seq = 9};
   estimate.attitude = {.angles = {.theta1_rad = 0.25F, .theta2_rad = -0.5F}};
+  estimate.omega_rad_s = {.first = 1.5F, .second = -2.0F};
+  estimate.sigma_rad = {.first = 1e-3F, .second = 2e-3F};
   estimate.residual_m = 1e-5F;
   estimate.flags = flag::kFilling;
   const AnglesMessage message = angles_message_of(estimate);
@@ -78,6 +80,10 @@ TEST_CASE("An estimate's numbers stand in its message", "[wire]") {
   CHECK(message.theta2_rad == -0.5F);
   CHECK(message.residual_m == 1e-5F);
   CHECK(message.flags == flag::kFilling);
+  CHECK(message.omega1_rad_s == 1.5F);
+  CHECK(message.omega2_rad_s == -2.0F);
+  CHECK(message.sigma1_rad == 1e-3F);
+  CHECK(message.sigma2_rad == 2e-3F);
 }
 
 TEST_CASE("What an estimate does not know is NaN in its message", "[wire]") {
@@ -85,6 +91,10 @@ TEST_CASE("What an estimate does not know is NaN in its message", "[wire]") {
   CHECK(std::isnan(message.theta1_rad));
   CHECK(std::isnan(message.theta2_rad));
   CHECK(std::isnan(message.residual_m));
+  CHECK(std::isnan(message.omega1_rad_s));
+  CHECK(std::isnan(message.omega2_rad_s));
+  CHECK(std::isnan(message.sigma1_rad));
+  CHECK(std::isnan(message.sigma2_rad));
   CHECK(message.flags == flag::kNoSolution);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/pipeline.hpp"
+#include "common/swing_tracker.hpp"
 #include "tests/unit/firmware/board_under_test.hpp"
 
 namespace penduline::test {
@@ -29,42 +30,67 @@ std::vector<KeptFrame> frames_after_reply(const BoardUnderTest& board) {
 }
 
 /// The payload of the angles that the host's own code makes of the same sample.
-Bytes angles_payload(Pipeline<float>& pipeline, const KeptFrame& sample) {
+template <class Estimator>
+Bytes angles_payload(Estimator& estimator, const KeptFrame& sample) {
   const auto message = read_message<SampleMessage>(sample.payload);
-  const Bytes frame = frame_of(angles_message_of(pipeline.update(wire::sample_of(*message))));
+  const Bytes frame = frame_of(angles_message_of(estimator.update(wire::sample_of(*message))));
   return frames_in(frame).at(0).payload;
 }
 
-TEST_CASE("On-board angles are bit for bit the host's of the same samples", "[application]") {
-  for (const std::uint32_t rate_millihz : {20'000U, 200'000U}) {
-    CAPTURE(rate_millihz);
-    BoardUnderTest board(swinging_rig());
-    board.start();
-    REQUIRE(board.upload(image_of(two_sensor_rig())) == Result::kDone);
-    // It also empties the filter, so both sides begin with the next sample.
-    REQUIRE(board.result_of(SetRate{.rate_millihz = rate_millihz}) == Result::kDone);
-    board.run_us(10 * kSecondUs);
+/// `Estimator` is the one of `kind`.
+template <class Estimator>
+void check_same_angles(OnboardEstimator kind, std::uint32_t rate_millihz) {
+  CAPTURE(rate_millihz);
+  BoardUnderTest board(swinging_rig());
+  board.start();
+  REQUIRE(board.upload(image_of(BoardRig{.rig = two_sensor_rig(), .estimator = kind})) ==
+          Result::kDone);
+  // It also has the estimator start over, so both sides begin with the next sample.
+  REQUIRE(board.result_of(SetRate{.rate_millihz = rate_millihz}) == Result::kDone);
+  board.run_us(10 * kSecondUs);
 
-    Pipeline<float> pipeline(two_sensor_rig(), {.rate_hz = static_cast<float>(rate_millihz) / 1000,
-                                                .full_scale_counts = 65535,
-                                                .reference_v = 3.3F,
-                                                .sensor_count = 2});
-    Bytes expected;
-    std::size_t compared = 0;
-    for (const KeptFrame& frame : frames_after_reply(board)) {
-      if (frame.type == SampleMessage::kType) {
-        expected = angles_payload(pipeline, frame);
-      } else if (frame.type == AnglesMessage::kType) {
-        REQUIRE(frame.payload == expected);
-        ++compared;
-      }
+  Estimator estimator(two_sensor_rig(), {.rate_hz = static_cast<float>(rate_millihz) / 1000,
+                                         .full_scale_counts = 65535,
+                                         .reference_v = 3.3F,
+                                         .sensor_count = 2});
+  Bytes expected;
+  std::size_t compared = 0;
+  for (const KeptFrame& frame : frames_after_reply(board)) {
+    if (frame.type == SampleMessage::kType) {
+      expected = angles_payload(estimator, frame);
+    } else if (frame.type == AnglesMessage::kType) {
+      REQUIRE(frame.payload == expected);
+      ++compared;
     }
-    CHECK(compared >= rate_millihz / 100 - 10);
-    const AnglesMessage angles = board.last<AnglesMessage>();
-    CHECK(angles.flags == 0);
-    CHECK(std::abs(angles.theta1_rad) < from_degrees(6));
-    CHECK(angles.residual_m < 1e-4F);
   }
+  CHECK(compared >= rate_millihz / 100 - 10);
+  const AnglesMessage angles = board.last<AnglesMessage>();
+  CHECK((angles.flags & ~flag::kStray) == 0);
+  CHECK(std::abs(angles.theta1_rad) < from_degrees(6));
+  CHECK(angles.residual_m < 1e-4F);
+}
+
+TEST_CASE("On-board angles are bit for bit the host's of the same samples", "[application]") {
+  check_same_angles<Pipeline<float>>(OnboardEstimator::kGaussNewton, 20'000);
+  check_same_angles<Pipeline<float>>(OnboardEstimator::kGaussNewton, 200'000);
+  check_same_angles<SwingTracker<float>>(OnboardEstimator::kKalman, 20'000);
+  check_same_angles<SwingTracker<float>>(OnboardEstimator::kKalman, 100'000);
+}
+
+TEST_CASE("Faster than the Kalman filter is, the board samples and finds no angles",
+          "[application]") {
+  BoardUnderTest board(swinging_rig());
+  board.start();
+  REQUIRE(board.upload(image_of(BoardRig{
+              .rig = two_sensor_rig(), .estimator = OnboardEstimator::kKalman})) == Result::kDone);
+  board.run_us(kSecondUs);
+  CHECK(board.last<AnglesMessage>().sigma1_rad > 0);
+  REQUIRE(board.result_of(SetRate{.rate_millihz = kMostKalmanMillihz + 1000}) == Result::kDone);
+  board.forget();
+  board.run_us(kSecondUs);
+  CHECK(board.all<SampleMessage>().size() >= 100);
+  CHECK(board.all<AnglesMessage>().empty());
+  CHECK(store_of(board) == StoreState::kValid);
 }
 
 TEST_CASE("Each estimate comes after its sample, with the same seq", "[application]") {

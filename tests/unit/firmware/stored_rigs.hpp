@@ -21,10 +21,13 @@ namespace penduline::test {
   return rig;
 }
 
-[[nodiscard]] inline Bytes image_of(const Rig<float>& rig) {
+[[nodiscard]] inline Bytes image_of(const wire::BoardRig& rig) {
   Bytes image(wire::kMaxRigImageBytes);
   image.resize(wire::encode_rig(rig, image));
   return image;
+}
+[[nodiscard]] inline Bytes image_of(const Rig<float>& rig) {
+  return image_of(wire::BoardRig{.rig = rig});
 }
 
 /// As large as a small flash sector, and erased.

@@ -15,10 +15,13 @@ namespace {
 using namespace penduline;
 using namespace penduline::test;
 
+constexpr auto kGaussNewton = wire::OnboardEstimator::kGaussNewton;
+
 /// The rig of a text as a board decodes it.
 Rig<float> on_board(const std::string& text) {
-  const auto image = rig_image(parse_rig(text, "rig.toml").value().rig, "rig.toml").value();
-  return wire::decode_rig(image).value();
+  const auto image =
+      rig_image(parse_rig(text, "rig.toml").value().rig, kGaussNewton, "rig.toml").value();
+  return wire::decode_rig(image).value().rig;
 }
 
 TEST_CASE("A board gets the rig's numbers in single precision", "[rig_image]") {
@@ -32,6 +35,21 @@ TEST_CASE("A board gets the rig's numbers in single precision", "[rig_image]") {
   REQUIRE(rig.filter);
   CHECK(rig.filter->order == 15);
   CHECK(rig.filter->cutoff_of_nyquist == 0.15F);
+}
+
+TEST_CASE("A board gets the estimator, each sensor's noise and the filter's trust", "[rig_image]") {
+  Rig<double> rig = parse_rig(std::string(kRigText), "rig.toml").value().rig;
+  rig.noise[1] = {.volts = 0.002, .gap_m = 3e-5};
+  rig.trust.acceleration_rad_s15 = 0.07;
+  const auto decoded =
+      wire::decode_rig(rig_image(rig, wire::OnboardEstimator::kKalman, "rig.toml").value());
+  REQUIRE(decoded);
+  CHECK(decoded->estimator == wire::OnboardEstimator::kKalman);
+  CHECK(decoded->rig.noise[0].volts == 0.0005F);
+  CHECK(decoded->rig.noise[1].volts == 0.002F);
+  CHECK(decoded->rig.noise[1].gap_m == 3e-5F);
+  CHECK(decoded->rig.trust.acceleration_rad_s15 == 0.07F);
+  CHECK(decoded->rig.trust.length_share == 0.02F);
 }
 
 TEST_CASE("Each response model reads on the board as on the host, to a micrometre", "[rig_image]") {
@@ -60,7 +78,7 @@ TEST_CASE("A rig that is none in single precision is refused by name", "[rig_ima
                 "rig.toml")
           .value()
           .rig;
-  const auto image = rig_image(rig, "rig.toml");
+  const auto image = rig_image(rig, kGaussNewton, "rig.toml");
   REQUIRE_FALSE(image);
   CHECK(image.error().message == "rig.toml: the rig does not work in the board's single precision");
 }
