@@ -51,10 +51,7 @@ class Application {
     ports_.for_each([&](auto& port) {
       port.receive(begun_us, [&](const wire::Frame& frame) { on_frame(port, frame); });
     });
-    Window window;
-    while (board_.sampler().take(window)) {
-      on_window(window);
-    }
+    take_windows();
     const std::uint64_t now_us = board_.clock().now_us();  // commands and windows took their time
     if (now_us - last_status_us_ >= kStatusPeriodUs) {
       say_status(now_us);
@@ -78,6 +75,14 @@ class Application {
   static constexpr std::uint64_t kStatusPeriodUs = 1'000'000;
   static constexpr std::uint32_t kDefaultPeriodUs = 50'000;
   static constexpr std::uint32_t kMillihzUs = 1'000'000'000;  ///< rate in mHz times period in us
+
+  /// Not inline, so that a window is off the stack while a command is carried out.
+  [[gnu::noinline]] void take_windows() {
+    Window window;
+    while (board_.sampler().take(window)) {
+      on_window(window);
+    }
+  }
 
   void on_window(const Window& window) {
     using Sampler = std::remove_cvref_t<decltype(board_.sampler())>;

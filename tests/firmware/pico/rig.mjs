@@ -11,11 +11,11 @@ import { rig } from './swing.mjs';
 
 const kPartBytes = 48;
 
-/** The image of the rig that swings are made with; the file goes into the swing's folder. */
-export function imageFor(swing) {
+/** The image of the rig that swings are made with, for `gn` or `ekf`; the file goes into the swing's folder. */
+export function imageFor(swing, estimator = 'gn') {
   const program = process.env.RIG_IMAGE ?? path.join(root, 'build/release/rig_image');
   const output = path.join(swing.folder, 'rig.image');
-  execFileSync(program, [rig, output]);
+  execFileSync(program, [rig, output, estimator]);
   return fs.readFileSync(output);
 }
 

@@ -208,8 +208,8 @@ class Restart(BoardTest):
 class Rig(BoardTest):
     OFFSET_M, ARM_M, GAP_AT_ZERO_M, SLOPE_M_PER_V = 0.02, 0.02, 0.031, -0.006
 
-    def image(self):
-        return wire.rig_image(self.GAP_AT_ZERO_M, self.SLOPE_M_PER_V, self.OFFSET_M, self.ARM_M)
+    def image(self, estimator=wire.GAUSS_NEWTON):
+        return wire.rig_image(self.GAP_AT_ZERO_M, self.SLOPE_M_PER_V, self.OFFSET_M, self.ARM_M, estimator)
 
     def test_a_flash_that_takes_nothing_is_told_and_sampling_goes_on(self):
         board = self.sampling_board()
@@ -261,16 +261,23 @@ class Rig(BoardTest):
         self.assert_sound(board)
 
     def test_its_angles_are_the_host_s_to_a_hundred_thousandth(self):
-        board = self.sampling_board(store=wire.stored(self.image()))
+        for estimator, number in (("gn", wire.GAUSS_NEWTON), ("ekf", wire.KALMAN)):
+            with self.subTest(estimator):
+                self.check_angles(estimator, self.image(number))
+
+    def check_angles(self, estimator, image):
+        board = self.sampling_board(store=wire.stored(image))
         self.assertEqual(board.command("SetEmitter", EMITTER_LIT)[0], "done")
-        messages = []
-        while len(only("Sample", messages)) < 120:
+        # The estimator starts over, so that both begin with the same sample.
+        messages = board.command("SetRate", 20_000)[1]
+        messages = messages[messages.index(only("Reply", messages)[-1]) + 1:]
+        while len(only("Sample", messages)) < 160:
             messages += board.receive(1)
             swing = len(messages) / 7
             board.inject(round(600 + 300 * math.sin(swing)), round(700 + 250 * math.cos(1.3 * swing)))
         samples = only("Sample", messages)
         self.assert_unbroken(samples)
-        host = {int(row["seq"]): row for row in self.replayed(samples)}
+        host = {int(row["seq"]): row for row in self.replayed(samples, estimator)}
         compared = 0
         for angles in only("Angles", messages):
             row = host.get(angles.seq)
@@ -281,7 +288,7 @@ class Rig(BoardTest):
             self.assertAlmostEqual(angles.theta2_rad, float(row["theta2_rad"]), delta=1e-5)
         self.assertGreater(compared, 80)
 
-    def replayed(self, samples):
+    def replayed(self, samples, estimator):
         """The rows that the program makes of the samples, with the same rig."""
         folder = tempfile.TemporaryDirectory(prefix="penduline-")
         self.addCleanup(folder.cleanup)
@@ -304,7 +311,7 @@ class Rig(BoardTest):
             "# penduline_recording = 1\n# rate_hz = 20.0\n# full_scale_counts = 65535\n"
             "# reference_v = 3.3\nseq,t_us,x_on,x_off,y_on,y_off,flags\n"
             + "".join(",".join(map(str, sample)) + "\n" for sample in samples), encoding="utf-8")
-        rows = program.run("replay", recording, "--rig", rig).stdout
+        rows = program.run("replay", recording, "--rig", rig, "--estimator", estimator).stdout
         return list(csv.DictReader(rows.splitlines()))
 
     def test_a_damaged_rig_in_the_store_is_told_and_not_used(self):
