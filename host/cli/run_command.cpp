@@ -19,6 +19,7 @@
 #include "host/cli/line_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/simulation_options.hpp"
+#include "host/rig_image.hpp"
 #include "host/session/service_manager.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/board_source.hpp"
@@ -38,6 +39,7 @@ struct RunOptions {
   RecordingOptions recording;
   bool fast = false;
   BoardSettings board;
+  std::optional<wire::OnboardEstimator> upload_rig;
   LineOptions lines;
 };
 
@@ -65,7 +67,17 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(
   if (lines != nullptr) {
     listener.attempted = [lines](BoardAttempt attempt) { lines->attempted(attempt); };
   }
-  return BoardSource::open(port_opener(uri), options.board, std::move(listener));
+  BoardSettings settings = options.board;
+  if (options.upload_rig) {
+    auto image = rig_image(rig, *options.upload_rig, options.estimation.rig_path);
+    if (!image) {
+      return tl::unexpected(image.error());
+    }
+    settings.rig = RigForBoard{.image = std::move(*image),
+                               .sensor_count = rig.layout.count,
+                               .estimator = *options.upload_rig};
+  }
+  return BoardSource::open(port_opener(uri), settings, std::move(listener));
 }
 
 /// The rate to ask a board for; none where no option says one.
@@ -82,12 +94,14 @@ std::optional<std::uint32_t> rate_millihz(const CLI::App& command, double rate_h
   return static_cast<std::uint32_t>(std::lround(rate_hz * 1e3));
 }
 
-std::map<std::string, wire::EmitterMode> emitter_modes() {
-  std::map<std::string, wire::EmitterMode> modes;
-  for (const auto& mode : wire::kEmitterModes) {
-    modes.emplace(mode.name, mode.value);
+/// The values of an enumeration of the wire by their names.
+template <class Choices>
+auto by_name(const Choices& choices) {
+  std::map<std::string, decltype(choices.front().value)> values;
+  for (const auto& choice : choices) {
+    values.emplace(choice.name, choice.value);
   }
-  return modes;
+  return values;
 }
 
 /// Whether the source is a board's bytes that lie in a file.
@@ -152,12 +166,18 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       ->required();
   add_estimation_options(*command, options->estimation);
   add_recording_options(*command, options->recording);
-  const std::map<std::string, wire::EmitterMode> modes = emitter_modes();
   command
       ->add_option("--emitter", options->board.emitter_mode,
                    "Of a board: its emitters in turn lit and dark, always lit, or always dark")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->transform(CLI::CheckedTransformer(by_name(wire::kEmitterModes)).description(""))
       ->type_name("switched|lit|dark");
+  command
+      ->add_option(
+          "--upload-rig", options->upload_rig,
+          "Of a board: store the rig on it first, so that it finds the angles itself, too, "
+          "by this\nestimator (ekf up to 100 Hz); it keeps the rig without power")
+      ->transform(CLI::CheckedTransformer(by_name(wire::kOnboardEstimators)).description(""))
+      ->type_name("gn|ekf");
   command->add_flag("--once", options->board.once,
                     "Fail where there is no board, or it goes, instead of waiting for it");
   add_line_options(*command, options->lines);
@@ -190,10 +210,13 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
     } else if (source->kind != SourceUri::Kind::kSimulation) {
       refuse_simulation_options(*command, "is for the source sim: only");
     }
-    for (const char* name : {"--once", "--emitter", "--reset", "--release"}) {
+    for (const char* name : {"--once", "--emitter", "--upload-rig", "--reset", "--release"}) {
       if (command->count(name) > 0 && !source->is_board()) {
         throw CLI::ValidationError(name, "is for a board only");
       }
+    }
+    if (is_stored(*source) && options->upload_rig) {
+      throw CLI::ValidationError("--upload-rig", "is for a board, not for its bytes in a file");
     }
     if (is_stored(*source)) {
       refuse_line_options(options->lines, "is for a board, not for its bytes in a file");

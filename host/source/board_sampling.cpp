@@ -4,27 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "common/wire/commands.hpp"
 
 namespace penduline {
-namespace {
-
-/// What came of a request to the board on `port_name`.
-tl::expected<void, Error> require_done(const std::string& port_name, std::string_view what,
-                                       const tl::expected<wire::Result, Error>& result) {
-  if (!result) {
-    return tl::unexpected(result.error());
-  }
-  if (*result != wire::Result::kDone) {
-    return failure(fmt::format("{}: the board refuses {}: {}", port_name, what,
-                               wire::name_of(wire::kResults, *result)));
-  }
-  return {};
-}
-
-}  // namespace
 
 std::string serial_number_of(const wire::Hello& hello) {
   std::string text;
@@ -46,6 +28,18 @@ tl::expected<void, Error> require_same_board(const std::string& port_name, const
         "{}: the board now reads {} sensors to {} counts at {} uV, expected {}, {} and {}",
         port_name, found.sensor_count, found.full_scale_counts, found.reference_uv,
         expected.sensor_count, expected.full_scale_counts, expected.reference_uv));
+  }
+  return {};
+}
+
+tl::expected<void, Error> require_done(const std::string& port_name, std::string_view what,
+                                       const tl::expected<wire::Result, Error>& result) {
+  if (!result) {
+    return tl::unexpected(result.error());
+  }
+  if (*result != wire::Result::kDone) {
+    return failure(fmt::format("{}: the board refuses {}: {}", port_name, what,
+                               wire::name_of(wire::kResults, *result)));
   }
   return {};
 }

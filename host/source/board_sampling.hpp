@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "common/wire/choices.hpp"
@@ -19,6 +20,11 @@ namespace penduline {
 [[nodiscard]] tl::expected<void, Error> require_same_board(const std::string& port_name,
                                                            const wire::Hello& found,
                                                            const wire::Hello& expected);
+
+/// What came of asking the board on `port_name` for `what`. Fails where it refuses, naming why.
+[[nodiscard]] tl::expected<void, Error> require_done(
+    const std::string& port_name, std::string_view what,
+    const tl::expected<wire::Result, Error>& result);
 
 /// What a host may ask a board for.
 struct Sampling {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/wire/rig_image.hpp"
 #include "common/wire/sample_message.hpp"
 #include "hal/linux/host_time.hpp"
 #include "host/session/clock_exchange.hpp"
@@ -88,9 +89,9 @@ tl::expected<void, Error> BoardSource::connect() {
       return same;
     }
   }
-  if (auto applied = apply_sampling(wanted(hello), *connection, hello); !applied) {
+  if (auto prepared = prepare(*connection, hello); !prepared) {
     settings_.once = settings_.once || !hello_;  // it would be refused again
-    return applied;
+    return prepared;
   }
   if (!hello_) {
     connection->forget_kept_frames();  // nobody may have read them for long
@@ -101,6 +102,28 @@ tl::expected<void, Error> BoardSource::connect() {
   pinged_at_ = Clock::time_point();
   welcome(hello);
   return {};
+}
+
+/// Has the board know the rig, the first time, and sample as it is asked to.
+tl::expected<void, Error> BoardSource::prepare(BoardConnection& connection, wire::Hello& hello) {
+  if (settings_.rig && !hello_) {
+    if (auto uploaded = upload_rig(*settings_.rig, connection); !uploaded) {
+      return uploaded;
+    }
+    listener_.say(fmt::format("{}: the board has stored the rig; it finds angles itself by {}",
+                              port_name_,
+                              wire::name_of(wire::kOnboardEstimators, settings_.rig->estimator)));
+  }
+  auto applied = apply_sampling(wanted(hello), connection, hello);
+  if (applied && settings_.rig && !hello_ &&
+      settings_.rig->estimator == wire::OnboardEstimator::kKalman &&
+      hello.rate_millihz > wire::kMostKalmanMillihz) {
+    listener_.say(
+        fmt::format("{}: at {} Hz the board has no time for ekf, above {} Hz it finds no "
+                    "angles",
+                    port_name_, hello.rate_millihz / 1e3, wire::kMostKalmanMillihz / 1e3));
+  }
+  return applied;
 }
 
 /// As it is asked to, or as it did before it started anew.

@@ -19,6 +19,7 @@
 #include "hal/linux/board_connection.hpp"
 #include "hal/replay/recording_event.hpp"
 #include "host/source/board_sampling.hpp"
+#include "host/source/rig_upload.hpp"
 #include "host/source/source.hpp"
 
 namespace penduline {
@@ -32,6 +33,7 @@ struct BoardSettings {
   std::chrono::milliseconds patience{0};        ///< at the start, even so: it is just being reset
   std::optional<std::uint32_t> rate_millihz{};  ///< none: as the board says first
   std::optional<wire::EmitterMode> emitter_mode{};  ///< the same
+  std::optional<RigForBoard> rig{};  ///< to be stored on the board when it is first there
 };
 
 /// What came of one attempt to talk to a board.
@@ -49,7 +51,7 @@ struct BoardListener {
 class BoardSource final : public Source {
  public:
   /// Waits for the board and its Hello. Fails where `settings.once` and there is none, where the
-  /// board refuses a setting, and where a stop is requested meanwhile.
+  /// board refuses a setting or the rig, and where a stop is requested meanwhile.
   static tl::expected<std::unique_ptr<Source>, Error> open(PortOpener opener,
                                                            const BoardSettings& settings,
                                                            BoardListener listener);
@@ -73,6 +75,7 @@ class BoardSource final : public Source {
 
   tl::expected<void, Error> try_again();
   tl::expected<void, Error> connect();
+  tl::expected<void, Error> prepare(BoardConnection& connection, wire::Hello& hello);
   [[nodiscard]] Sampling wanted(const wire::Hello& hello) const;
   void welcome(const wire::Hello& hello);
   tl::expected<void, Error> settle(wire::Hello hello);

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # `penduline run` on a board's terminal: plugged in late, reset, gone for good.
+import csv
+import subprocess
 import time
 import unittest
 
 from live_run import LiveRunTest
 from program import RIGS, ProgramTest, read_rows, run
-from sim_board import WITHOUT_PTS, SimBoard
+from sim_board import BOARD, WITHOUT_PTS, SimBoard
+import wire
 
 RIG = RIGS / "paper.toml"
 RESTARTED, DROPOUT = 4, 256
@@ -69,6 +72,52 @@ class BoardTest(LiveRunTest, ProgramTest):
         board.close()
         status, said = started.end()
         self.assertEqual((status, said[-1]), (1, f"error: {self.port}: the board has gone"))
+
+    def test_an_uploaded_rig_stays_on_the_board_which_finds_the_run_s_angles(self):
+        store = self.folder / "store"
+        board = self.plug("--store", store)
+        started = self.start("--once", "--upload-rig", "ekf")
+        started.wait_for_rows(5)
+        self.assertIn(f"info: {self.port}: the board has stored the rig; it finds angles itself by ekf",
+                      self.finish(started))
+        board.close()
+
+        stream = subprocess.run([BOARD, "--rig", RIG, "--store", store, "--link", "stdout", "--fast",
+                                 "--seconds", "5"], capture_output=True, check=True).stdout
+        frames = self.folder / "frames"
+        frames.write_bytes(stream)
+        rows = list(csv.DictReader(
+            run("run", f"serial:{frames}", "--rig", RIG, "--estimator", "ekf").stdout.splitlines()))
+        angles = [message for message in wire.Splitter().messages(stream)
+                  if type(message).__name__ == "Angles"]
+        self.assertEqual([angle.seq for angle in angles], [int(row["seq"]) for row in rows])
+        for angle, row in zip(angles, rows):
+            for name, within in (("theta1_rad", 1e-5), ("theta2_rad", 1e-5), ("omega1_rad_s", 1e-3),
+                                 ("omega2_rad_s", 1e-3), ("sigma1_rad", 1e-5), ("sigma2_rad", 1e-5)):
+                self.assertAlmostEqual(getattr(angle, name), float(row[name]), delta=within, msg=name)
+
+    def test_a_rig_that_is_not_for_the_board_ends_the_run_in_words(self):
+        self.plug()
+        rig = self.write("three.toml", RIG.read_text(encoding="utf-8") + """
+            [[sensor]]
+            position_m = [-0.02, 0.0, 0.0]
+            response = { model = "linear", gap_at_zero_m = 0.031, slope_m_per_v = -0.006 }""")
+        done = run("run", f"serial:{self.port}", "--rig", rig, "--upload-rig", "gn", status=1)
+        self.assertEqual(done.stderr.splitlines()[-1], f"error: {self.port}: found a rig of 3 sensors to "
+                         "upload, expected 2, as many as the board reads")
+
+    def test_a_rig_that_the_board_cannot_store_ends_the_run_in_words(self):
+        self.plug("--store", self.folder / "no" / "store")
+        done = run("run", f"serial:{self.port}", "--rig", RIG, "--upload-rig", "gn", status=1)
+        self.assertEqual(done.stderr.splitlines()[-1],
+                         f"error: {self.port}: the board refuses the rig: store_failed")
+
+    def test_a_rig_is_uploaded_to_a_board_alone(self):
+        frames = self.write("frames", "")
+        done = run("run", f"serial:{frames}", "--rig", RIG, "--upload-rig", "gn", status=2)
+        self.assertIn("--upload-rig: is for a board, not for its bytes in a file", done.stderr)
+        done = run("run", "sim:", "--rig", RIG, "--upload-rig", "gn", status=2)
+        self.assertIn("--upload-rig: is for a board only", done.stderr)
 
     def test_bytes_that_come_for_ever_and_are_no_boards_are_given_up(self):
         done = run("run", "serial:/dev/zero", "--once", "--rig", RIG, status=1)

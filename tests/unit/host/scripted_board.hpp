@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,14 +44,15 @@ inline std::string sample_frame(std::uint64_t seq, std::uint8_t flags = 0) {
 /// What one plugging in gives: the bytes up to its end, each piece in one read.
 struct Life {
   std::vector<std::string> pieces{};
-  std::string refusal{};  ///< instead: why the port cannot be opened
+  std::string refusal{};             ///< instead: why the port cannot be opened
+  std::uint8_t refused_command = 0;  ///< answered by invalid_rig
 };
 
 /// Answers commands by `Reply` as they come, and otherwise says its pieces, then is gone.
 class ScriptedPort final : public BytePort {
  public:
-  ScriptedPort(std::vector<std::string> pieces, std::vector<std::uint8_t>& commands)
-      : pieces_(std::move(pieces)), commands_(commands) {}
+  ScriptedPort(const Life& life, std::vector<std::uint8_t>& commands)
+      : pieces_(life.pieces), refused_command_(life.refused_command), commands_(commands) {}
 
   tl::expected<Got, Error> read(std::span<std::uint8_t> bytes,
                                 std::chrono::milliseconds /*patience*/) override {
@@ -69,8 +71,15 @@ class ScriptedPort final : public BytePort {
   tl::expected<void, Error> write(std::span<const std::uint8_t> bytes) override {
     decoder_.push(bytes, [&](const wire::Frame& frame) {
       commands_.push_back(frame.type);
-      if (frame.type == wire::SetRate::kType || frame.type == wire::SetEmitter::kType) {
-        replies_ += frame_of(wire::Reply{.command = frame.type, .token = frame.payload.front()});
+      constexpr std::array kAnswered = {wire::SetRate::kType, wire::SetEmitter::kType,
+                                        wire::BeginRig::kType, wire::RigPart::kType,
+                                        wire::EndRig::kType};
+      if (std::ranges::find(kAnswered, frame.type) != kAnswered.end()) {
+        replies_ += frame_of(wire::Reply{.command = frame.type,
+                                         .token = frame.payload.front(),
+                                         .result = frame.type == refused_command_
+                                                       ? wire::Result::kInvalidRig
+                                                       : wire::Result::kDone});
       }
     });
     return {};
@@ -80,6 +89,7 @@ class ScriptedPort final : public BytePort {
 
  private:
   std::vector<std::string> pieces_;
+  std::uint8_t refused_command_;
   std::vector<std::uint8_t>& commands_;
   wire::Decoder decoder_;
   std::string replies_;
@@ -119,7 +129,7 @@ inline Heard listen(std::vector<Life> lives, const BoardSettings& settings = {})
         if (!now.refusal.empty()) {
           return failure(now.refusal);
         }
-        return std::make_unique<ScriptedPort>(now.pieces, heard.commands);
+        return std::make_unique<ScriptedPort>(now, heard.commands);
       },
       settings,
       {.say = [&](const std::string& text) { heard.said.push_back(text); },
