@@ -22,8 +22,8 @@ struct Calibration {
 
 /// Volts a metre: how steep a response is at a gap.
 [[nodiscard]] inline double steepness_v_per_m(const Response<double>& response, double gap_m) {
-  constexpr double kStep_m = 1e-6;
-  return (response.volts(gap_m + kStep_m) - response.volts(gap_m - kStep_m)) / (2 * kStep_m);
+  constexpr double kStepM = 1e-6;
+  return (response.volts(gap_m + kStepM) - response.volts(gap_m - kStepM)) / (2 * kStepM);
 }
 
 /// The nearest gap whose signal tells it from one beyond the peak; 0 where no peak is known.

@@ -18,7 +18,7 @@
 namespace penduline {
 namespace {
 
-constexpr double kWorstGeometry_m = 0.2e-3;
+constexpr double kWorstGeometryM = 0.2e-3;
 
 /// What a geometry was found from, in gaps of one sensor each.
 struct Seen {
@@ -32,7 +32,7 @@ struct Seen {
 tl::expected<std::vector<Seen>, Error> readable_points(const RigFile& rig,
                                                        const SensorPoints& points,
                                                        Calibration& result) {
-  constexpr double kGapSigma_m = 20e-6;
+  constexpr double kGapSigmaM = 20e-6;
   std::vector<Seen> seen;
   for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
     std::size_t left_out = 0;
@@ -52,7 +52,7 @@ tl::expected<std::vector<Seen>, Error> readable_points(const RigFile& rig,
       const double noise_m = point.standard_error_v * std::abs(response.slope_m_per_v(point.volts));
       seen.push_back({.sensor = i,
                       .gap_m = *reading.gap_m,
-                      .sigma_m = std::hypot(noise_m, kGapSigma_m),
+                      .sigma_m = std::hypot(noise_m, kGapSigmaM),
                       .plane = DiscPlane<double>(slopes_of(*point.angles))});
     }
     if (left_out > 0) {
@@ -81,11 +81,11 @@ Panel residual_panel(const std::string& sensor, const std::vector<UsedSignal>& u
 tl::expected<Calibration, Error> concluded(const RigFile& rig, const GeometryNumbers& numbers,
                                            std::span<const double> found, double residual_m,
                                            Calibration result) {
-  if (residual_m > kWorstGeometry_m) {
+  if (residual_m > kWorstGeometryM) {
     return failure(
         fmt::format("the best geometry misses the gaps by {:.2f} mm RMS, expected {:.1f} "
                     "mm or less: calibrate the responses by known gaps first",
-                    residual_m / kMillimetre, kWorstGeometry_m / kMillimetre));
+                    residual_m / kMillimetre, kWorstGeometryM / kMillimetre));
   }
   if (numbers.free_count() == 0) {
     return failure(

@@ -9,19 +9,19 @@ namespace penduline {
 namespace {
 
 /// How far a ruler may be off.
-constexpr double kPrior_m = 3e-3;
-constexpr double kScale_m = 1e-4;
+constexpr double kPriorM = 3e-3;
+constexpr double kScaleM = 1e-4;
 
 }  // namespace
 
 GeometryNumbers::GeometryNumbers(const RigFile& rig) {
-  constexpr double kCoarsestOffset_m = 0.5e-3;
-  constexpr double kCoarsestPlace_m = 0.3e-3;
-  constexpr double kCoarsestRest_m = 0.1e-3;
+  constexpr double kCoarsestOffsetM = 0.5e-3;
+  constexpr double kCoarsestPlaceM = 0.3e-3;
+  constexpr double kCoarsestRestM = 0.1e-3;
   constexpr std::array<const char*, 3> kAxes = {"x_m", "y_m", "rest_gap_m"};
   const SensorLayout<double>& layout = rig.rig.layout;
   numbers_.push_back(
-      {.name = "disc offset_m", .start_m = layout.disc_offset_m, .coarsest_m = kCoarsestOffset_m});
+      {.name = "disc offset_m", .start_m = layout.disc_offset_m, .coarsest_m = kCoarsestOffsetM});
   for (std::size_t i = 0; i < layout.count; ++i) {
     const Vector3<double>& position = layout.position_m[i];
     // Across the sensor's own direction first: a turn of everything about the vertical shows
@@ -31,14 +31,14 @@ GeometryNumbers::GeometryNumbers(const RigFile& rig) {
       of_sensor_[i][static_cast<std::size_t>(axis)] = numbers_.size();
       numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[static_cast<std::size_t>(axis)],
                           .start_m = position[axis],
-                          .coarsest_m = kCoarsestPlace_m});
+                          .coarsest_m = kCoarsestPlaceM});
     }
   }
   for (std::size_t i = 0; i < layout.count; ++i) {
     of_sensor_[i][2] = numbers_.size();
     numbers_.push_back({.name = rig.sensor_names[i] + " " + kAxes[2],
                         .start_m = layout.position_m[i].z() + layout.disc_offset_m,
-                        .coarsest_m = kCoarsestRest_m});
+                        .coarsest_m = kCoarsestRestM});
   }
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     free_.push_back(i);
@@ -57,7 +57,7 @@ std::vector<Unknown> GeometryNumbers::unknowns() const {
   std::vector<Unknown> unknowns;
   for (const std::size_t i : free_) {
     unknowns.push_back(
-        {{.name = numbers_[i].name, .start = numbers_[i].start_m, .scale = kScale_m}, kPrior_m});
+        {{.name = numbers_[i].name, .start = numbers_[i].start_m, .scale = kScaleM}, kPriorM});
   }
   return unknowns;
 }

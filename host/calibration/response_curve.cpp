@@ -39,7 +39,8 @@ std::vector<double> inverse_square_near(std::span<const double> gap_m,
   const Eigen::VectorXd weights = signals.cwiseInverse();
   std::vector<double> best;
   double least = std::numeric_limits<double>::infinity();
-  for (double b_m = 0; b_m < 0.03; b_m += 0.0005) {
+  for (int step = 0; step < 60; ++step) {
+    const double b_m = 0.0005 * step;
     Eigen::MatrixXd terms(gaps.size(), 2);
     terms.col(0) = (gaps.array() + b_m).square().inverse().matrix().cwiseProduct(weights);
     terms.col(1) = weights;

@@ -16,10 +16,10 @@ namespace penduline {
 namespace {
 
 /// How well a jig's gap is known, and the noise that no mean takes away.
-constexpr double kJigSigma_m = 20e-6;
-constexpr double kNarrowestPoints_m = 2e-3;
+constexpr double kJigSigmaM = 20e-6;
+constexpr double kNarrowestPointsM = 2e-3;
 /// Beyond this a curve is not determined.
-constexpr double kWorstCurveSigma_m = 0.1e-3;
+constexpr double kWorstCurveSigmaM = 0.1e-3;
 
 struct Weighed {
   std::vector<SensorPoint> points;  ///< from near to far
@@ -28,11 +28,11 @@ struct Weighed {
 };
 
 std::size_t distinct_gaps(const std::vector<SensorPoint>& points) {
-  constexpr double kSame_m = 50e-6;
+  constexpr double kSameM = 50e-6;
   std::size_t count = 0;
   double last_m = -1;
   for (const SensorPoint& point : points) {
-    if (count == 0 || point.gap_m - last_m > kSame_m) {
+    if (count == 0 || point.gap_m - last_m > kSameM) {
       ++count;
       last_m = point.gap_m;
     }
@@ -79,11 +79,11 @@ tl::expected<Weighed, Error> weigh(std::vector<SensorPoint> points, std::size_t 
   }
   Weighed weighed{.points = std::move(points), .steepness_v_per_m = {}, .range = {}};
   weighed.range = {weighed.points.front().gap_m, weighed.points.back().gap_m};
-  if (weighed.range.farthest_m - weighed.range.nearest_m < kNarrowestPoints_m) {
+  if (weighed.range.farthest_m - weighed.range.nearest_m < kNarrowestPointsM) {
     return failure(fmt::format("found gaps from {:.2f} to {:.2f} mm, expected {:.0f} mm or more",
                                weighed.range.nearest_m / kMillimetre,
                                weighed.range.farthest_m / kMillimetre,
-                               kNarrowestPoints_m / kMillimetre));
+                               kNarrowestPointsM / kMillimetre));
   }
   std::vector<double> gaps;
   std::vector<double> signals;
@@ -126,8 +126,7 @@ Candidate finished(Candidate candidate, const Weighed& data) {
                                                                  Eigen::VectorXd& residuals) {
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const double noise_m = data.points[i].standard_error_v / data.steepness_v_per_m[i];
-      residuals[static_cast<Eigen::Index>(i)] =
-          misfit(values, i) / std::hypot(noise_m, kJigSigma_m);
+      residuals[static_cast<Eigen::Index>(i)] = misfit(values, i) / std::hypot(noise_m, kJigSigmaM);
     }
   };
   return candidate;
@@ -291,12 +290,12 @@ tl::expected<void, Error> choose(const std::vector<Candidate>& candidates, const
   if (result.names.empty()) {
     return failure(why);
   }
-  if (!(curve_sigma_m <= kWorstCurveSigma_m)) {
+  if (!(curve_sigma_m <= kWorstCurveSigmaM)) {
     return failure(
         fmt::format("the points leave the curve uncertain by {:.2f} mm, expected {:.1f} mm or "
                     "less: more points, "
                     "better known, or a simpler model",
-                    curve_sigma_m / kMillimetre, kWorstCurveSigma_m / kMillimetre));
+                    curve_sigma_m / kMillimetre, kWorstCurveSigmaM / kMillimetre));
   }
   return {};
 }

@@ -80,20 +80,20 @@ double degrees_of(const RigFile& rig, std::size_t sensor, double gap_m) {
 
 tl::expected<void, Error> require_still(const RigFile& rig, const std::vector<SignalLog>& logs,
                                         std::size_t sensor, const RestGap& rest) {
-  constexpr double kMost_deg = 0.03;
+  constexpr double kMostDeg = 0.03;
   const auto refuse = [&](double found_deg, std::string_view what, std::string_view advice) {
     return failure(fmt::format(
         "{}: the pendulum is not still: sensor {} sees {} by {:.3f} deg, "
         "expected {:.2f} or less: {}",
-        logs.front().path, rig.sensor_names[sensor], what, found_deg, kMost_deg, advice));
+        logs.front().path, rig.sensor_names[sensor], what, found_deg, kMostDeg, advice));
   };
-  if (const double deg = degrees_of(rig, sensor, rest.motion_m); deg > kMost_deg) {
+  if (const double deg = degrees_of(rig, sensor, rest.motion_m); deg > kMostDeg) {
     return refuse(deg, "it move (RMS)", "wait until it hangs still");
   }
-  if (const double deg = degrees_of(rig, sensor, rest.drift_m); deg > kMost_deg) {
+  if (const double deg = degrees_of(rig, sensor, rest.drift_m); deg > kMostDeg) {
     return refuse(deg, "it drift", "let the sensors warm up");
   }
-  if (const double deg = degrees_of(rig, sensor, rest.sigma_m); deg > kMost_deg) {
+  if (const double deg = degrees_of(rig, sensor, rest.sigma_m); deg > kMostDeg) {
     return refuse(deg, "a mean uncertain", "record for longer");
   }
   return {};

@@ -22,7 +22,7 @@ void append(const ResponseFit& fit, const std::string& sensor, CalibrationRecord
   covariance.bottomRightCorner(added, added) = fit.fit.covariance;
   record.covariance = covariance;
   for (const std::string& name : fit.names) {
-    record.parameters.push_back(sensor + " " + name);
+    record.parameters.push_back(fmt::format("{} {}", sensor, name));
   }
 }
 

@@ -155,7 +155,7 @@ GapRange seen_range(const std::vector<UsedSignal>& used, double nearest_readable
 tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, const SwingFit& fit,
                                      const ResponsesUnknown& model, const std::string& path,
                                      Calibration& result) {
-  constexpr double kNarrowest_m = 2e-3;
+  constexpr double kNarrowestM = 2e-3;
   const std::string& name = rig.sensor_names[sensor];
   const std::vector<UsedSignal>& used = fit.used[sensor];
   const std::size_t left_out = fit.left_out[sensor];
@@ -169,12 +169,12 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
         path, name, share * 100, readable_m / kMillimetre, kMostLeftOut * 100));
   }
   const GapRange range = seen_range(used, readable_m);
-  if (range.farthest_m - range.nearest_m < kNarrowest_m) {
+  if (range.farthest_m - range.nearest_m < kNarrowestM) {
     return failure(fmt::format(
         "{}: sensor {}: found gaps from {:.2f} to {:.2f} mm, expected {:.0f} mm or more: let it "
         "swing in an ellipse, or add a recording of a swing towards this sensor",
         path, name, range.nearest_m / kMillimetre, range.farthest_m / kMillimetre,
-        kNarrowest_m / kMillimetre));
+        kNarrowestM / kMillimetre));
   }
   const auto numbers = model.of_sensor(fit.sensor_numbers(), sensor);
   if (!keeps_falling(model.curve(sensor), numbers, range)) {
@@ -211,16 +211,16 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
 }
 
 tl::expected<void, Error> require_known_angles(const SwingFit& fit, const std::string& path) {
-  constexpr double kMost_deg = 0.2;
+  constexpr double kMostDeg = 0.2;
   const double found_deg = fit.angle_sigma_rad / kDegree;
-  if (found_deg <= kMost_deg) {
+  if (found_deg <= kMostDeg) {
     return {};
   }
   return failure(fmt::format(
       "{}: the swing leaves its amplitude uncertain by {:.2f} deg on one axis, expected {:.1f} or "
       "less: record for longer, let it swing farther and in an ellipse (a push sideways), add a "
       "swing along each axis, or release it at an angle that you know (--released-at)",
-      path, found_deg, kMost_deg));
+      path, found_deg, kMostDeg));
 }
 
 }  // namespace
@@ -228,13 +228,13 @@ tl::expected<void, Error> require_known_angles(const SwingFit& fit, const std::s
 tl::expected<void, Error> require_good_swing(const SwingFit& fit,
                                              const std::vector<SignalLog>& logs,
                                              const Pendulum<double>& pendulum) {
-  constexpr double kMostResidual_m = 0.2e-3;
+  constexpr double kMostResidualM = 0.2e-3;
   const std::string& path = logs.front().path;
-  if (fit.residual_m > kMostResidual_m) {
+  if (fit.residual_m > kMostResidualM) {
     return failure(fmt::format(
         "{}: the best fit misses the gaps by {:.2f} mm RMS, expected {:.1f} mm or less: no free "
         "swing of one pendulum of about {} m does that",
-        path, fit.residual_m / kMillimetre, kMostResidual_m / kMillimetre, pendulum.length_m));
+        path, fit.residual_m / kMillimetre, kMostResidualM / kMillimetre, pendulum.length_m));
   }
   if (fit.release_s < -0.1 / small_swing_hz(pendulum)) {
     return failure(

@@ -73,11 +73,11 @@ Eigen::Vector2d harmonic(const std::vector<double>& t_s, const std::vector<doubl
 
 /// When the pendulum was let go: the last sample that is where the first ones are.
 double released_s(const std::vector<double>& t_s, const std::vector<Angles<double>>& angles) {
-  constexpr double kMoved_rad = 0.3 * kDegree;
+  constexpr double kMovedRad = 0.3 * kDegree;
   std::size_t i = 0;
   while (i + 1 < angles.size() &&
          std::hypot(angles[i + 1].theta1_rad - angles[0].theta1_rad,
-                    angles[i + 1].theta2_rad - angles[0].theta2_rad) < kMoved_rad) {
+                    angles[i + 1].theta2_rad - angles[0].theta2_rad) < kMovedRad) {
     ++i;
   }
   return t_s[i];
@@ -86,7 +86,7 @@ double released_s(const std::vector<double>& t_s, const std::vector<Angles<doubl
 tl::expected<void, Error> begin(SwingData& data, const Rig<double>& rig,
                                 const std::vector<double>& t_s,
                                 const std::vector<Angles<double>>& angles) {
-  constexpr double kLeast_rad = 1 * kDegree;
+  constexpr double kLeastRad = 1 * kDegree;
   constexpr std::size_t kFewest = 8;
   const double omega = 2 * std::numbers::pi * small_swing_hz(rig.pendulum);
   std::vector<double> times;
@@ -108,7 +108,7 @@ tl::expected<void, Error> begin(SwingData& data, const Rig<double>& rig,
   }
   const Eigen::Vector2d first = harmonic(times, angle1, omega);
   const Eigen::Vector2d second = harmonic(times, angle2, omega);
-  if (std::hypot(first.norm(), second.norm()) < kLeast_rad) {
+  if (std::hypot(first.norm(), second.norm()) < kLeastRad) {
     return failure(fmt::format("{}: found a swing of {:.2f} deg, expected 1 deg or more", data.name,
                                std::hypot(first.norm(), second.norm()) / kDegree));
   }

@@ -13,7 +13,7 @@
 namespace penduline {
 namespace {
 
-constexpr double kFirstSignalSigma_v = 2e-3;
+constexpr double kFirstSignalSigmaV = 2e-3;
 
 /// Where one signal of the fit stands.
 struct Place {
@@ -28,7 +28,7 @@ class SwingProblem {
   SwingProblem(const Pendulum<double>& pendulum, double length_share,
                const std::vector<SwingData>& swings, const SensorModel& sensors)
       : gravity_m_s2_(pendulum.gravity_m_s2), swings_(swings), sensors_(sensors) {
-    sigma_v_.fill(kFirstSignalSigma_v);
+    sigma_v_.fill(kFirstSignalSigmaV);
     add_pendulum(pendulum, length_share);
     for (const SwingData& swing : swings) {
       first_of_swing_.push_back(unknowns_.size());
@@ -98,7 +98,7 @@ class SwingProblem {
       if (has_tilt_only(swings_[w])) {
         const double* start = values.data() + first_of_swing_[w];
         const double tilt_rad = std::acos(std::cos(start[0]) * std::cos(start[1]));
-        residuals[at++] = (tilt_rad - swings_[w].release->tilt_rad) / Release::kSigma_rad;
+        residuals[at++] = (tilt_rad - swings_[w].release->tilt_rad) / Release::kSigmaRad;
       }
     }
   }
@@ -158,7 +158,7 @@ class SwingProblem {
     };
     constexpr double kNone = std::numeric_limits<double>::infinity();
     if (swing.release) {
-      const double prior = swing.release->angles ? Release::kSigma_rad : kNone;
+      const double prior = swing.release->angles ? Release::kSigmaRad : kNone;
       const Angles<double> angles = swing.release->angles.value_or(
           Angles<double>{swing.start.theta1_rad, swing.start.theta2_rad});
       add("theta1_rad", angles.theta1_rad, kAngle, prior);
@@ -257,7 +257,7 @@ class Leftover {
   /// Sigma for each signal, such that a mean over signals of about one gap is as uncertain as it
   /// is: what the model is wrong by there no number of samples takes away.
   [[nodiscard]] double sigma_v() const {
-    constexpr double kLeast_v = 20e-6;
+    constexpr double kLeastV = 20e-6;
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
     double squares = 0;
@@ -278,7 +278,7 @@ class Leftover {
     // Noise alone leaves kBins times its variance in `mean_squares`.
     const double noise = std::max(0.0, squares - mean_squares) / std::max(1.0, count - kBins);
     const double wrong = std::max(0.0, mean_squares - kBins * noise) / count;
-    return std::max(kLeast_v, std::sqrt(noise + a_bin * wrong));
+    return std::max(kLeastV, std::sqrt(noise + a_bin * wrong));
   }
   [[nodiscard]] bool empty() const { return misfits_.empty(); }
 
@@ -329,12 +329,12 @@ void tell(SwingProblem& problem, const std::vector<SwingData>& swings, const Sen
   const Eigen::VectorXd& values = result.fit.values;
   double squares = 0;
   for (const Place& place : problem.places()) {
-    constexpr double kStep_m = 1e-6;
+    constexpr double kStepM = 1e-6;
     const std::span<const double> numbers = problem.sensor_numbers(values);
     const double gap_m = problem.gap_m(values, place);
-    const double steepness = (sensors.volts(numbers, place.sensor, gap_m + kStep_m) -
-                              sensors.volts(numbers, place.sensor, gap_m - kStep_m)) /
-                             (2 * kStep_m);
+    const double steepness = (sensors.volts(numbers, place.sensor, gap_m + kStepM) -
+                              sensors.volts(numbers, place.sensor, gap_m - kStepM)) /
+                             (2 * kStepM);
     const double misfit_m = problem.misfit_v(values, place) / steepness;
     result.used[place.sensor].push_back(
         {.gap_m = gap_m,

@@ -30,7 +30,7 @@ struct Release {
   std::optional<Angles<double>> angles{};
   double tilt_rad = 0;  ///< where there are no `angles`
   /// How well anybody knows such an angle.
-  static constexpr double kSigma_rad = 0.1 * kDegree;
+  static constexpr double kSigmaRad = 0.1 * kDegree;
 };
 
 /// The signals of one swing.

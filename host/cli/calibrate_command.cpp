@@ -251,11 +251,11 @@ void add_rest(CLI::App& calibrate, ExitStatus& status) {
 
 /// "12": a tilt; "8.5,-8.5": theta1 and theta2.
 Release parse_release(const std::string& text) {
-  constexpr double kMost_deg = 60;
+  constexpr double kMostDeg = 60;
   std::vector<double> numbers;
   for (const std::string_view cell : split_cells(text, ",")) {
     const auto number = parse_number<double>(cell);
-    if (!number || !(std::abs(*number) <= kMost_deg)) {
+    if (!number || !(std::abs(*number) <= kMostDeg)) {
       throw CLI::ValidationError(
           "--released-at",
           fmt::format("found '{}', expected the tilt or theta1,theta2 in degrees, to 60", text));
