@@ -213,11 +213,11 @@ tl::expected<Calibration, Error> calibrate_geometry(const RigFile& rig,
     return tl::unexpected(swings.error());
   }
   GeometryNumbers numbers(rig);
-  tl::expected<SwingFit, Error> fit;
+  tl::expected<SignalFit, Error> fit;
   do {
     const PlacesUnknown model(rig, numbers);
-    fit = fit_swings(pendulum, options.length_m ? kGivenLengthShare : kRigLengthShare, *swings,
-                     model);
+    fit = fit_signals(pendulum, options.length_m ? kGivenLengthShare : kRigLengthShare, *swings,
+                      model);
     if (!fit) {
       return failure(fmt::format("{}: {}", logs.front().path, fit.error().message));
     }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/calibration/calibration.hpp"
-#include "host/calibration/swing_fit.hpp"
+#include "host/calibration/signal_fit.hpp"
 #include "host/rig_file.hpp"
 
 namespace penduline {

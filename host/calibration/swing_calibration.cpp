@@ -152,7 +152,7 @@ GapRange seen_range(const std::vector<UsedSignal>& used, double nearest_readable
   return {std::max(nearest->gap_m - beyond_m, nearest_readable), farthest->gap_m + beyond_m};
 }
 
-tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, const SwingFit& fit,
+tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, const SignalFit& fit,
                                      const ResponsesUnknown& model, const std::string& path,
                                      Calibration& result) {
   constexpr double kNarrowestM = 2e-3;
@@ -210,7 +210,7 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
   return {};
 }
 
-tl::expected<void, Error> require_known_angles(const SwingFit& fit, const std::string& path) {
+tl::expected<void, Error> require_known_angles(const SignalFit& fit, const std::string& path) {
   constexpr double kMostDeg = 0.2;
   const double found_deg = fit.angle_sigma_rad / kDegree;
   if (found_deg <= kMostDeg) {
@@ -225,7 +225,7 @@ tl::expected<void, Error> require_known_angles(const SwingFit& fit, const std::s
 
 }  // namespace
 
-tl::expected<void, Error> require_good_swing(const SwingFit& fit,
+tl::expected<void, Error> require_good_swing(const SignalFit& fit,
                                              const std::vector<SignalLog>& logs,
                                              const Pendulum<double>& pendulum) {
   constexpr double kMostResidualM = 0.2e-3;
@@ -264,7 +264,7 @@ tl::expected<Calibration, Error> calibrate_swing(const RigFile& rig,
   }
   const ResponsesUnknown model(rig, options.curve, ranges_of(rig, *swings), *gain);
   const auto fit =
-      fit_swings(pendulum, options.length_m ? kGivenLengthShare : kRigLengthShare, *swings, model);
+      fit_signals(pendulum, options.length_m ? kGivenLengthShare : kRigLengthShare, *swings, model);
   if (!fit) {
     return failure(fmt::format("{}: {}", path, fit.error().message));
   }

@@ -9,8 +9,8 @@
 #include "hal/error.hpp"
 #include "host/calibration/calibration.hpp"
 #include "host/calibration/response_curve.hpp"
+#include "host/calibration/signal_fit.hpp"
 #include "host/calibration/signal_log.hpp"
-#include "host/calibration/swing_fit.hpp"
 #include "host/rig_file.hpp"
 
 namespace penduline {
@@ -34,7 +34,7 @@ inline constexpr double kGivenLengthShare = 0.001;
 
 /// Refuses swings that the fit does not describe, or a release that is not in the recording. `most`
 /// is what the angles may be uncertain by.
-[[nodiscard]] tl::expected<void, Error> require_good_swing(const SwingFit& fit,
+[[nodiscard]] tl::expected<void, Error> require_good_swing(const SignalFit& fit,
                                                            const std::vector<SignalLog>& logs,
                                                            const Pendulum<double>& pendulum);
 

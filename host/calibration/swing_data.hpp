@@ -8,8 +8,8 @@
 
 #include "common/rig.hpp"
 #include "hal/error.hpp"
+#include "host/calibration/signal_fit.hpp"
 #include "host/calibration/signal_log.hpp"
-#include "host/calibration/swing_fit.hpp"
 
 namespace penduline {
 

@@ -72,7 +72,7 @@ struct UsedSignal {
 };
 
 /// A swing that has been fitted.
-struct SwingFit {
+struct SignalFit {
   Fit fit;
   std::vector<std::string> names;       ///< of the fit's numbers
   std::size_t first_sensor_number = 0;  ///< behind the pendulum's and the swings' own
@@ -93,9 +93,9 @@ inline constexpr std::size_t kPendulumNumbers = 4;
 
 /// Fits all swings together, from their beginnings on in windows that grow, since a period that is
 /// a little wrong is a phase that is quite wrong later. The length is known to `length_share`.
-[[nodiscard]] tl::expected<SwingFit, Error> fit_swings(const Pendulum<double>& pendulum,
-                                                       double length_share,
-                                                       const std::vector<SwingData>& swings,
-                                                       const SensorModel& sensors);
+[[nodiscard]] tl::expected<SignalFit, Error> fit_signals(const Pendulum<double>& pendulum,
+                                                         double length_share,
+                                                         const std::vector<SwingData>& swings,
+                                                         const SensorModel& sensors);
 
 }  // namespace penduline

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pendulum's own path as the yardstick of its sensors.
-#include "host/calibration/swing_fit.hpp"
+#include "host/calibration/signal_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -325,7 +325,7 @@ double amplitude_sigma_rad(const SwingProblem& problem, const Fit& fit, const Sw
 }
 
 void tell(SwingProblem& problem, const std::vector<SwingData>& swings, const SensorModel& sensors,
-          SwingFit& result) {
+          SignalFit& result) {
   const Eigen::VectorXd& values = result.fit.values;
   double squares = 0;
   for (const Place& place : problem.places()) {
@@ -351,15 +351,15 @@ void tell(SwingProblem& problem, const std::vector<SwingData>& swings, const Sen
 
 }  // namespace
 
-tl::expected<SwingFit, Error> fit_swings(const Pendulum<double>& pendulum, double length_share,
-                                         const std::vector<SwingData>& swings,
-                                         const SensorModel& sensors) {
+tl::expected<SignalFit, Error> fit_signals(const Pendulum<double>& pendulum, double length_share,
+                                           const std::vector<SwingData>& swings,
+                                           const SensorModel& sensors) {
   constexpr double kFirstPeriods = 3;
   constexpr double kGrowth = 4;
   SwingProblem problem(pendulum, length_share, swings, sensors);
   const std::vector<double> start = problem.start_values();
   Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start));
-  SwingFit result;
+  SignalFit result;
   const double end_s = longest_s(swings);
   double window_s = kFirstPeriods / small_swing_hz(pendulum);
   problem.choose(window_s, nullptr);
