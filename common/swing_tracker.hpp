@@ -52,7 +52,7 @@ class SwingTracker {
     const GapMeasurements<Scalar> measured =
         measure_gaps(rig_, acquisition_, sample, estimate.flags);
     const bool other_time = (estimate.flags & (flag::kRestarted | flag::kOutOfOrder)) != 0 ||
-                            sample.t_us - last_t_us_ > kLongestBridge_us;
+                            sample.t_us - last_t_us_ > kLongestBridgeUs;
     if (!begun_ || other_time) {
       begun_ = begin(measured);
     } else {
@@ -73,12 +73,12 @@ class SwingTracker {
 
  private:
   /// A pause after which nothing is left of what was known of the motion.
-  static constexpr std::int64_t kLongestBridge_us = 30'000'000;
+  static constexpr std::int64_t kLongestBridgeUs = 30'000'000;
 
   /// Starts from the closed form; false where these gaps have none.
   bool begin(const GapMeasurements<Scalar>& measured) {
-    constexpr Scalar kAnyTheta_rad = 1;
-    constexpr Scalar kAnyOmega_rad_s = 5;
+    constexpr Scalar kAnyThetaRad = 1;
+    constexpr Scalar kAnyOmegaRadPerS = 5;
     if (measured.count < rig_.layout.count) {
       return false;
     }
@@ -90,7 +90,7 @@ class SwingTracker {
     if (!found) {
       return false;
     }
-    filter_.begin(angles_of(found->slopes), kAnyTheta_rad, kAnyOmega_rad_s);
+    filter_.begin(angles_of(found->slopes), kAnyThetaRad, kAnyOmegaRadPerS);
     for (std::size_t i = 0; i < measured.count; ++i) {
       filter_.update(measured.gap[i], false);
     }
@@ -103,8 +103,8 @@ class SwingTracker {
   void follow(const GapMeasurements<Scalar>& measured, std::int64_t t_us, Flags& flags,
               Witness& witness) {
     constexpr Scalar kMicro = Scalar(1e-6);
-    constexpr Scalar kKick_rad = Scalar(0.05);
-    constexpr Scalar kKick_rad_s = 2;
+    constexpr Scalar kKickRad = Scalar(0.05);
+    constexpr Scalar kKickRadPerS = 2;
     const auto elapsed_us = static_cast<std::int32_t>(t_us - last_t_us_);
     const Scalar seconds = static_cast<Scalar>(elapsed_us) * kMicro;
     const auto transition = filter_.predict(
@@ -117,7 +117,7 @@ class SwingTracker {
       noise_.learn(square, seconds / static_cast<Scalar>(measured.count));
       stray[i] = verdict == Verdict::kStray;
       if (verdict == Verdict::kDisturbed) {
-        filter_.loosen(kKick_rad, kKick_rad_s);
+        filter_.loosen(kKickRad, kKickRadPerS);
         noise_.jump();
       }
     }

@@ -51,10 +51,10 @@ tl::expected<void, Error> Smoother::take(const Sample& sample, EstimateSink& sin
   step.measured = measure_gaps(rig_, acquisition_, sample, known);
   step.filtered = belief_of(tracker_.filter());
   steps_.push_back(std::move(step));
-  if (sample.t_us - steps_.front().estimate.t_us < 2 * kAhead_us) {
+  if (sample.t_us - steps_.front().estimate.t_us < 2 * kAheadUs) {
     return {};
   }
-  return hand_on(sample.t_us - kAhead_us, sink);
+  return hand_on(sample.t_us - kAheadUs, sink);
 }
 
 tl::expected<void, Error> Smoother::finish(EstimateSink& sink) {

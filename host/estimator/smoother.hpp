@@ -17,7 +17,7 @@ namespace penduline {
 /// twice that time, 1.5 kB a sample of two sensors, however long the recording is.
 class Smoother final : public Estimator {
  public:
-  static constexpr std::int64_t kAhead_us = 20'000'000;
+  static constexpr std::int64_t kAheadUs = 20'000'000;
 
   Smoother(const Rig<double>& rig, const Acquisition<double>& acquisition);
 

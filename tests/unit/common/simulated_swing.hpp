@@ -34,7 +34,7 @@ namespace penduline::test {
 /// Samples of a swing at 20 Hz, of the paper's layout and linear sensors.
 class SimulatedSwing {
  public:
-  static constexpr double kPeriod_s = 0.05;
+  static constexpr double kPeriodS = 0.05;
 
   SimulatedSwing(std::uint64_t seed, const SwingState<double>& start,
                  const Pendulum<double>& pendulum = {.damping_per_s = 0.01})
@@ -73,7 +73,7 @@ class SimulatedSwing {
  private:
   void swing_on() {
     constexpr int kSteps = 20;
-    const double step_s = kPeriod_s / kSteps;
+    const double step_s = kPeriodS / kSteps;
     for (int i = 0; i < kSteps; ++i) {
       state_ = stepped(state_, pendulum_, step_s);
       kick(noise_rad_s15_ * std::sqrt(step_s) * normal_(random_),

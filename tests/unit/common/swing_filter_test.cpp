@@ -30,7 +30,7 @@ SwingFilter<double> after_a_second(const SensorLayout<double>& layout = paper_la
       filter.update({.sensor = sensor, .gap_m = gap_m[sensor], .variance_m2 = kVariance}, false);
     }
     static_cast<void>(swing.next());
-    filter.predict(SimulatedSwing::kPeriod_s, 0.01, 0.01);
+    filter.predict(SimulatedSwing::kPeriodS, 0.01, 0.01);
   }
   return filter;
 }

@@ -37,7 +37,7 @@ class Followed {
   }
   Estimate<double> push_for(double seconds) {
     Estimate<double> estimate = push();
-    for (int i = 1; i < seconds / SimulatedSwing::kPeriod_s; ++i) {
+    for (int i = 1; i < seconds / SimulatedSwing::kPeriodS; ++i) {
       estimate = push();
     }
     return estimate;
