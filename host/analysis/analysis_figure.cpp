@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "host/analysis/analysis_report.hpp"
-#include "host/analysis/degree.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/analysis/analysis_report.hpp"
-#include "host/analysis/degree.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

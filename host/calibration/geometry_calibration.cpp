@@ -13,7 +13,7 @@
 #include "host/calibration/geometry_numbers.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_data.hpp"
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

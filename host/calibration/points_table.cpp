@@ -15,7 +15,7 @@
 #include "hal/replay/cells.hpp"
 #include "hal/replay/line_reader.hpp"
 
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

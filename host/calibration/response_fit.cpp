@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "host/calibration/calibration.hpp"
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

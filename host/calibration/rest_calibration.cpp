@@ -9,7 +9,7 @@
 
 #include "common/gauss_newton.hpp"
 #include "host/calibration/static_calibration.hpp"
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

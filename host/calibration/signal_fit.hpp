@@ -14,8 +14,8 @@
 #include "common/dynamics.hpp"
 #include "common/sample.hpp"
 #include "hal/error.hpp"
-#include "host/calibration/units.hpp"
 #include "host/fit/least_squares.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 

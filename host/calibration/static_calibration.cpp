@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

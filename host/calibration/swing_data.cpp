@@ -11,7 +11,7 @@
 
 #include "common/gauss_newton.hpp"
 
-#include "host/calibration/units.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "host/analysis/analysis_report.hpp"
 #include "host/analysis/angle_series.hpp"
-#include "host/analysis/degree.hpp"
 #include "host/analysis/swing_analysis.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
@@ -17,6 +16,7 @@
 #include "host/cli/number_within.hpp"
 #include "host/figure/figure.hpp"
 #include "host/output/text_file.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

@@ -22,12 +22,12 @@
 #include "host/calibration/rest_calibration.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_calibration.hpp"
-#include "host/calibration/units.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/number_within.hpp"
 #include "host/output/text_file.hpp"
+#include "host/units.hpp"
 
 namespace penduline {
 namespace {

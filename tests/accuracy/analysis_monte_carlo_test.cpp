@@ -8,8 +8,8 @@
 #include <random>
 
 #include "hal/sim/motion.hpp"
-#include "host/analysis/degree.hpp"
 #include "host/analysis/swing_analysis.hpp"
+#include "host/units.hpp"
 
 using namespace penduline;
 

@@ -152,8 +152,8 @@ TEST_CASE("An unknown key is complained of and the rest is read", "[rig]") {
 TEST_CASE("Unknown keys are complained of in every section", "[rig]") {
   CHECK(
       good(fmt::format("colour = 1\n{}", kRigText)).complaints ==
-      Lines{"rig.toml:1: rig file colour: unknown key, ignored; known are disc, ekf, filter, gpio, "
-            "pendulum, sensor"});
+      Lines{"rig.toml:1: rig file colour: unknown key, ignored; known are calibration, disc, ekf, "
+            "filter, gpio, pendulum, sensor"});
   CHECK(good(rig_with(6, "[disc]\ncolour = 1")).complaints ==
         Lines{"rig.toml:7: [disc] colour: unknown key, ignored; known are diameter_m, offset_m"});
   CHECK(good(rig_with(14, "colour = 1")).complaints ==

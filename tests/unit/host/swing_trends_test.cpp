@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "hal/sim/motion.hpp"
-#include "host/analysis/degree.hpp"
+#include "host/units.hpp"
 
 using namespace penduline;
 
