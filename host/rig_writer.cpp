@@ -160,6 +160,7 @@ Rig<double> changed(Rig<double> rig, const RigChanges& changes) {
   for (std::size_t i = 0; i < rig.layout.count; ++i) {
     rig.layout.position_m[i] = changes.positions_m[i].value_or(rig.layout.position_m[i]);
     rig.responses[i] = changes.responses[i].value_or(rig.responses[i]);
+    rig.noise[i].volts = changes.noise_v[i].value_or(rig.noise[i].volts);
   }
   return rig;
 }
@@ -185,6 +186,9 @@ tl::expected<std::string, Error> rewritten_rig(const std::string& path, const Ri
     }
     if (changes.responses[i]) {
       sensor.insert_or_assign("response", response_table(*changes.responses[i]));
+    }
+    if (changes.noise_v[i]) {
+      sensor.insert_or_assign("noise_v", rounded(*changes.noise_v[i], 2));
     }
   }
   rig.insert_or_assign("calibration", calibration_table(record));

@@ -18,6 +18,7 @@ struct RigChanges {
   std::optional<double> disc_offset_m{};
   std::array<std::optional<Vector3<double>>, kMaxSensors> positions_m{};
   std::array<std::optional<Response<double>>, kMaxSensors> responses{};
+  std::array<std::optional<double>, kMaxSensors> noise_v{};
 };
 
 /// The rig with the changes made.

@@ -53,6 +53,14 @@ TEST_CASE("A rest finds a sensor's height", "[calibration]") {
   CHECK(result->record.covariance(0, 0) > 0);
 }
 
+TEST_CASE("A rest finds each signal's noise for the Kalman filter", "[calibration]") {
+  // 2 mV a conversion, 32 of them lit and 32 dark: 2 mV sqrt(2/32), and the ADC's steps.
+  const auto result = calibrate_rest(typical_rig(), {still(raised())}, ZeroOf::kHeight);
+  REQUIRE(result);
+  CHECK(result->changes.noise_v[0].value() == Approx(0.5e-3).epsilon(0.15));
+  CHECK(changed(typical_rig().rig, result->changes).noise[1].volts == Approx(0.5e-3).epsilon(0.15));
+}
+
 TEST_CASE("A pendulum that swings a little is not at rest", "[calibration]") {
   CHECK(
       error_of(still(raised(), 0.2))

@@ -58,6 +58,14 @@ TEST_CASE("A rewritten rig keeps what was not changed, also what the program doe
   CHECK(text.find("[laboratory]\nroom = \"3.14\"\n") != std::string::npos);
 }
 
+TEST_CASE("A signal's noise is written with two digits", "[rig_writer]") {
+  RigChanges changes;
+  changes.noise_v[1] = 0.00051234;
+  const RigFile rig = parse_rig(rewritten(std::string(kRigText), changes), "new").value();
+  CHECK(rig.rig.noise[0].volts == 0.0005);
+  CHECK(rig.rig.noise[1].volts == 0.00051);
+}
+
 TEST_CASE("Numbers are written as a person would", "[rig_writer]") {
   RigChanges changes;
   changes.positions_m[1] = Vector3<double>(0, 0.0200123456, -0.011);
