@@ -2,180 +2,27 @@
 // `penduline calibrate`: recordings in, a better rig file out.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <functional>
-#include <iterator>
+#include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hal/replay/cells.hpp"
-#include "hal/replay/utc_text.hpp"
-#include "host/calibration/calibration_report.hpp"
 #include "host/calibration/geometry_calibration.hpp"
-#include "host/calibration/points_table.hpp"
 #include "host/calibration/rest_calibration.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/calibration/swing_calibration.hpp"
+#include "host/cli/calibration_options.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/estimation_options.hpp"
-#include "host/cli/log.hpp"
 #include "host/cli/number_within.hpp"
-#include "host/output/text_file.hpp"
 #include "host/units.hpp"
 
 namespace penduline {
 namespace {
 
-using Outcome = tl::expected<Calibration, Error>;
-
-/// What all methods are asked.
-struct CommonOptions {
-  std::vector<std::string> recordings;
-  std::string rig_path;
-  std::string output_path;
-  std::string plot_path;
-  bool force = false;
-  bool strict = false;
-};
-
-void add_common_options(CLI::App& command, CommonOptions& options) {
-  add_rig_option(command, options.rig_path);
-  command
-      .add_option("-o,--output", options.output_path,
-                  "Where the new rig goes, with a section [calibration]; comments are lost")
-      ->required()
-      ->type_name("FILE");
-  command
-      .add_option("--plot", options.plot_path,
-                  "Draw what was fitted and the residuals: .svg, .pdf or .png")
-      ->type_name("FILE");
-  command.add_flag("--force", options.force, "Write over a rig that is there, even the one read");
-  command.add_flag("--strict", options.strict,
-                   "End with status 3 where there was anything to warn of");
-}
-
-CLI::Option* add_recordings(CLI::App& command, CommonOptions& options, const std::string& help) {
-  return command.add_option("FILE", options.recordings, help);
-}
-
-std::string utc_now() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return utc_text_s(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
-}
-
-tl::expected<void, Error> require_free_output(const CommonOptions& options) {
-  std::vector<std::string> paths{options.output_path, options.plot_path};
-  std::ranges::transform(options.recordings, std::back_inserter(paths), named_input);
-  if (auto distinct = require_distinct_files(paths); !distinct) {
-    return distinct;
-  }
-  if (options.output_path == "-") {
-    return failure("--output: found '-', expected a file: the report goes to the standard output");
-  }
-  std::error_code error;
-  if (!options.force && std::filesystem::exists(options.output_path, error)) {
-    return failure(fmt::format("{}: is there already, expected a new file; --force writes over it",
-                               options.output_path));
-  }
-  return {};
-}
-
-/// Calibrates, draws, writes, reports.
-tl::expected<bool, Error> write_calibration(
-    const CommonOptions& options, const std::function<Outcome(const RigFile&)>& calibrate) {
-  if (const auto is_free = require_free_output(options); !is_free) {
-    return tl::unexpected(is_free.error());
-  }
-  const auto rig = load_rig(options.rig_path);
-  if (!rig) {
-    return tl::unexpected(rig.error());
-  }
-  auto result = calibrate(*rig);
-  if (!result) {
-    return tl::unexpected(result.error());
-  }
-  for (const std::string& warning : result->warnings) {
-    log_warning(warning);
-  }
-  result->record.date = utc_now();
-  if (result->record.recordings.empty()) {
-    result->record.recordings = options.recordings;
-  }
-  if (!options.plot_path.empty()) {
-    if (const auto drawn = draw(result->figure, options.plot_path); !drawn) {
-      return tl::unexpected(drawn.error());
-    }
-  }
-  const auto text = rewritten_rig(options.rig_path, result->changes, result->record);
-  if (!text) {
-    return tl::unexpected(text.error());
-  }
-  if (const auto written = put_file(options.output_path, *text); !written) {
-    return tl::unexpected(written.error());
-  }
-  fmt::print("{}\nthe new rig: {}\n", report_of(*result), options.output_path);
-  return result->warnings.empty();
-}
-
-ExitStatus conclude(const CommonOptions& options,
-                    const std::function<Outcome(const RigFile&)>& calibrate) {
-  const auto sound = write_calibration(options, calibrate);
-  if (!sound) {
-    return log_failure(sound.error());
-  }
-  return options.strict && !*sound ? ExitStatus::kDoubtful : ExitStatus::kDone;
-}
-
-/// The recordings as a whole, and a calibration from them.
-Outcome by_recordings(const CommonOptions& options, const RigFile& rig,
-                      const std::function<Outcome(const std::vector<SignalLog>&)>& calibrate) {
-  const auto logs = read_signals(options.recordings, rig.rig.layout.count);
-  if (!logs) {
-    return tl::unexpected(logs.error());
-  }
-  for (const SignalLog& log : *logs) {
-    std::ranges::for_each(log.complaints, log_warning);
-  }
-  return calibrate(*logs);
-}
-
-/// A table of points, and a calibration from them.
-Outcome by_points(const CommonOptions& options, const std::string& table, const RigFile& rig,
-                  const std::function<Outcome(const SensorPoints&)>& calibrate) {
-  if (options.recordings.size() > 1) {
-    return failure(
-        fmt::format("found {} recordings beside --points, expected one at most: more "
-                    "stand in the table's column 'recording'",
-                    options.recordings.size()));
-  }
-  const auto points = read_points(
-      table, options.recordings.empty() ? "" : options.recordings.front(), rig.rig.layout.count);
-  if (!points) {
-    return tl::unexpected(points.error());
-  }
-  const auto measured = measure_points(*points, rig.rig.layout);
-  if (!measured) {
-    return tl::unexpected(measured.error());
-  }
-  return calibrate(*measured).map([&](Calibration result) {
-    for (const KnownPoint& point : *points) {
-      std::vector<std::string>& named = result.record.recordings;
-      if (std::ranges::find(named, point.recording) == named.end()) {
-        named.push_back(point.recording);
-      }
-    }
-    return result;
-  });
-}
-
 struct StaticOptions {
-  CommonOptions common;
+  CalibrationOptions common;
   std::string points_path;
   ResponseModel model = ResponseModel::kTable;
 };
@@ -185,7 +32,7 @@ void add_static(CLI::App& calibrate, ExitStatus& status) {
   CLI::App* command = calibrate.add_subcommand(
       "static", "Fit each sensor's response to points at known tilts or gaps");
   add_recordings(*command, options->common, "The recording, where the table names none");
-  add_common_options(*command, options->common);
+  add_calibration_options(*command, options->common);
   command
       ->add_option("--points", options->points_path,
                    "Table of the points: recording, or from_s and to_s of one; theta1_deg and\n"
@@ -208,7 +55,7 @@ void add_static(CLI::App& calibrate, ExitStatus& status) {
       "  penduline calibrate static --points points.csv --rig rig.toml -o calibrated.toml\n"
       "  penduline calibrate static rec.csv --points spans.csv --rig rig.toml -o new.toml");
   command->final_callback([options, &status] {
-    status = conclude(options->common, [&](const RigFile& rig) {
+    status = conclude_calibration(options->common, [&](const RigFile& rig) {
       return by_points(options->common, options->points_path, rig, [&](const SensorPoints& points) {
         return calibrate_static(rig, points, options->model);
       });
@@ -217,7 +64,7 @@ void add_static(CLI::App& calibrate, ExitStatus& status) {
 }
 
 struct RestOptions {
-  CommonOptions common;
+  CalibrationOptions common;
   ZeroOf zero_of = ZeroOf::kHeight;
 };
 
@@ -227,7 +74,7 @@ void add_rest(CLI::App& calibrate, ExitStatus& status) {
       calibrate.add_subcommand("rest", "Zero the sensors by a pendulum that hangs still");
   add_recordings(*command, options->common, "Recordings of the still pendulum, 10 s or more")
       ->required();
-  add_common_options(*command, options->common);
+  add_calibration_options(*command, options->common);
   const std::map<std::string, ZeroOf> zeros{
       {"height", ZeroOf::kHeight}, {"response", ZeroOf::kResponse}, {"gain", ZeroOf::kGain}};
   command
@@ -241,7 +88,7 @@ void add_rest(CLI::App& calibrate, ExitStatus& status) {
       "A pendulum that swings or sensors that drift by more than 0.03 deg are refused.\n\n"
       "  penduline calibrate rest still.csv --rig rig.toml -o zeroed.toml");
   command->final_callback([options, &status] {
-    status = conclude(options->common, [&](const RigFile& rig) {
+    status = conclude_calibration(options->common, [&](const RigFile& rig) {
       return by_recordings(options->common, rig, [&](const std::vector<SignalLog>& logs) {
         return calibrate_rest(rig, logs, options->zero_of);
       });
@@ -289,7 +136,7 @@ void add_swing_options(CLI::App& command, SwingOptions& options) {
 }
 
 struct SwingCommandOptions {
-  CommonOptions common;
+  CalibrationOptions common;
   SwingOptions swing;
   std::string points_path;
 };
@@ -300,7 +147,7 @@ void add_swing(CLI::App& calibrate, ExitStatus& status) {
       "swing", "Fit each sensor's response to a free swing, without any jig");
   add_recordings(*command, options->common, "Recordings of free swings, 20 s to minutes each")
       ->required();
-  add_common_options(*command, options->common);
+  add_calibration_options(*command, options->common);
   add_swing_options(*command, options->swing);
   const std::map<std::string, CurveKind> models{{"table", CurveKind::kLogPolynomial},
                                                 {"inverse_square", CurveKind::kInverseSquare}};
@@ -316,7 +163,7 @@ void add_swing(CLI::App& calibrate, ExitStatus& status) {
       "  penduline calibrate swing swing.csv --rig rig.toml -o calibrated.toml --plot fit.svg\n"
       "  penduline calibrate swing let_go.csv --released-at 8,8 --rig rig.toml -o new.toml");
   command->final_callback([options, &status] {
-    status = conclude(options->common, [&](const RigFile& rig) {
+    status = conclude_calibration(options->common, [&](const RigFile& rig) {
       return by_recordings(options->common, rig, [&](const std::vector<SignalLog>& logs) {
         return calibrate_swing(rig, logs, options->swing);
       });
@@ -330,7 +177,7 @@ void add_geometry(CLI::App& calibrate, ExitStatus& status) {
       "geometry", "Find where the sensors stand and the disc's offset, as far as the data tell");
   add_recordings(*command, options->common,
                  "Recordings of free swings, or the one that a table of points is of");
-  add_common_options(*command, options->common);
+  add_calibration_options(*command, options->common);
   command
       ->add_option("--points", options->points_path,
                    "Table of points at known tilts, as of calibrate static")
@@ -348,7 +195,7 @@ void add_geometry(CLI::App& calibrate, ExitStatus& status) {
     if (!swing && (options->swing.release || options->swing.length_m)) {
       throw CLI::ValidationError("--points", "excludes --released-at and --length-m");
     }
-    status = conclude(options->common, [&](const RigFile& rig) {
+    status = conclude_calibration(options->common, [&](const RigFile& rig) {
       if (swing) {
         return by_recordings(options->common, rig, [&](const std::vector<SignalLog>& logs) {
           return calibrate_geometry(rig, logs, options->swing);
