@@ -18,7 +18,7 @@ command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
 KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev systemd make xz-utils libelf1)
 
 # What installation, package, manual and completion are tested with.
-PACKAGING_PACKAGES=(systemd dpkg-dev mandoc bash-completion zsh fish)
+PACKAGING_PACKAGES=(systemd dpkg-dev file mandoc bash-completion zsh fish)
 
 # install_emulator: the RP2040's, an npm package of the version that its lock file names.
 install_emulator() {
