@@ -89,12 +89,14 @@ tl::expected<void, Error> BoardSource::connect() {
       return same;
     }
   }
+  const std::uint32_t rate_before_millihz = hello.rate_millihz;
   if (auto prepared = prepare(*connection, hello); !prepared) {
     settings_.once = settings_.once || !hello_;  // it would be refused again
     return prepared;
   }
   if (!hello_) {
     connection->forget_kept_frames();  // nobody may have read them for long
+    skips_sample_ = hello.rate_millihz != rate_before_millihz;
   }
   connection_.emplace(std::move(*connection));
   waiting_told_ = false;
@@ -228,6 +230,9 @@ bool BoardSource::take(const wire::Frame& frame, Sample& sample) {
   switch (frame.type) {
     case wire::SampleMessage::kType:
       if (const auto message = wire::read_message<wire::SampleMessage>(frame.payload)) {
+        if (std::exchange(skips_sample_, false)) {
+          break;
+        }
         sample = wire::sample_of(*message);
         sample.flags |= std::exchange(restarted_, false) ? flag::kRestarted : 0;
         return true;

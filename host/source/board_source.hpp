@@ -95,11 +95,14 @@ class BoardSource final : public Source {
   std::uint32_t boot_id_ = 0;         ///< of the start that it is in
   std::string firmware_;              ///< the same
   bool restarted_ = false;            ///< the next sample is the first after a start
-  std::optional<wire::Hello> anew_;   ///< of a start while it was connected
-  Clock::time_point patient_until_;   ///< where `settings_.once`
-  std::string port_name_;             ///< of the last connection
-  std::string refusal_;               ///< why a board that is there was not taken, said last
-  bool waiting_told_ = false;         ///< that the board is waited for
+  /// The next sample's window was on its way when the rate was set: the one after it is due by the
+  /// old rate still.
+  bool skips_sample_ = false;
+  std::optional<wire::Hello> anew_;  ///< of a start while it was connected
+  Clock::time_point patient_until_;  ///< where `settings_.once`
+  std::string port_name_;            ///< of the last connection
+  std::string refusal_;              ///< why a board that is there was not taken, said last
+  bool waiting_told_ = false;        ///< that the board is waited for
   std::chrono::milliseconds wait_ = kShortestWait;  ///< before the next attempt to connect
   Clock::time_point heard_at_;
   Clock::time_point lost_at_;

@@ -143,19 +143,27 @@ TEST_CASE("Another board in the place of the first is refused by its number", "[
 }
 
 TEST_CASE("A rate that is asked for is set, and set again after a new start", "[board]") {
-  const Heard heard = listen({{.pieces = {kHello, sample_frame(0)}},
+  const Heard heard = listen({{.pieces = {kHello, samples(0, 1)}},
                               {.pieces = {frame_of(hello_of_boot(2)), sample_frame(0)}}},
                              {.rate_millihz = 100'000});
   CHECK(heard.header.acquisition.rate_hz == 100);
   CHECK(std::ranges::count(heard.commands, wire::SetRate::kType) == 2);
-  CHECK(seqs_of(heard) == Seqs{0, 0});
+  CHECK(seqs_of(heard) == Seqs{1, 0});
+}
+
+TEST_CASE("A run begins with the rate that is asked for: the window on its way is another's",
+          "[board]") {
+  CHECK(seqs_of(listen({{.pieces = {kHello, samples(0, 2)}}}, {.rate_millihz = 100'000})) ==
+        Seqs{1, 2});
+  CHECK(seqs_of(listen({{.pieces = {kHello, samples(0, 2)}}}, {.rate_millihz = 50'000})) ==
+        Seqs{0, 1, 2});
 }
 
 TEST_CASE("After a new start on a line that stays the board is told its rate again", "[board]") {
   const std::string again = frame_of(hello_of_boot(2));
   const Heard heard = listen({{.pieces = {kHello, samples(0, 2), again, samples(0, 1)}}},
                              {.rate_millihz = 100'000});
-  CHECK(seqs_of(heard) == Seqs{0, 1, 2, 0, 1});
+  CHECK(seqs_of(heard) == Seqs{1, 2, 0, 1});
   CHECK(std::ranges::count(heard.commands, wire::SetRate::kType) == 2);
   CHECK(heard.said.front() == "script: the board has started anew");
 }
