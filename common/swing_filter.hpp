@@ -138,14 +138,22 @@ class SwingFilter {
   [[nodiscard]] Scalar variance(std::size_t i) const { return covariance_[i][i]; }
   [[nodiscard]] Scalar covariance(std::size_t i, std::size_t j) const { return covariance_[i][j]; }
   [[nodiscard]] std::size_t states() const { return states_; }
-  /// Whether the state and its variances are numbers: measurements that contradict the rig by far
-  /// may take it where there are none.
-  [[nodiscard]] bool is_finite() const {
-    Scalar sum = 0;
-    for (std::size_t i = 0; i < states_; ++i) {
-      sum += state_[i] + covariance_[i][i];
+  /// Whether state and variances are those of a pendulum that hangs: measurements that contradict
+  /// the rig by far may take them anywhere, and to what is no number.
+  [[nodiscard]] bool is_sound() const {
+    constexpr Scalar kMostThetaRad = Scalar(1.5);
+    constexpr Scalar kMostOmegaRadPerS = 200;
+    constexpr Scalar kMostLogLength = 1;
+    bool sound = std::abs(state_[kLength]) < kMostLogLength;
+    for (std::size_t i = 0; i < 2; ++i) {
+      sound = sound && std::abs(state_[i]) < kMostThetaRad &&
+              std::abs(state_[2 + i]) < kMostOmegaRadPerS;
     }
-    return std::isfinite(sum);
+    for (std::size_t i = 0; i < states_; ++i) {
+      sound = sound && std::isfinite(state_[i]) && covariance_[i][i] >= 0 &&
+              std::isfinite(covariance_[i][i]);
+    }
+    return sound;
   }
   [[nodiscard]] Scalar length_m() const { return pendulum_.length_m * std::exp(state_[kLength]); }
 

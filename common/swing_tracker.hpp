@@ -58,7 +58,7 @@ class SwingTracker {
     } else {
       follow(measured, sample.t_us, estimate.flags, witness);
     }
-    begun_ = begun_ && filter_.is_finite();
+    begun_ = begun_ && filter_.is_sound();
     last_t_us_ = sample.t_us;
     if (begun_) {
       put_state(rig_, filter_.state(),
@@ -75,18 +75,34 @@ class SwingTracker {
   /// A pause after which nothing is left of what was known of the motion.
   static constexpr std::int64_t kLongestBridgeUs = 30'000'000;
 
-  /// Starts from the closed form; false where these gaps have none.
-  bool begin(const GapMeasurements<Scalar>& measured) {
-    constexpr Scalar kAnyThetaRad = 1;
-    constexpr Scalar kAnyOmegaRadPerS = 5;
-    if (measured.count < rig_.layout.count) {
-      return false;
-    }
+  /// The tilt that these gaps alone give, if they do: three or more sensors can spare one.
+  std::optional<InverseResult<Scalar>> solve(const GapMeasurements<Scalar>& measured) const {
     std::array<Scalar, kMaxSensors> gap_m{};
     for (std::size_t i = 0; i < measured.count; ++i) {
       gap_m[i] = measured.gap[i].gap_m;
     }
-    const auto found = inverse_.solve(std::span<const Scalar>(gap_m).first(measured.count));
+    const auto gaps = std::span<const Scalar>(gap_m).first(measured.count);
+    if (measured.count == rig_.layout.count) {
+      return inverse_.solve(gaps);
+    }
+    if constexpr (kMaxSensors > 2) {
+      SensorLayout<Scalar> layout{.count = measured.count,
+                                  .disc_offset_m = rig_.layout.disc_offset_m};
+      for (std::size_t i = 0; i < measured.count; ++i) {
+        layout.position_m[i] = rig_.layout.position_m[measured.gap[i].sensor];
+      }
+      if (measured.count >= 2 && determines_tilt(layout)) {
+        return GaussNewton<Scalar>(layout).solve(gaps);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Starts from the closed form; false where these gaps have none.
+  bool begin(const GapMeasurements<Scalar>& measured) {
+    constexpr Scalar kAnyThetaRad = 1;
+    constexpr Scalar kAnyOmegaRadPerS = 5;
+    const auto found = solve(measured);
     if (!found) {
       return false;
     }

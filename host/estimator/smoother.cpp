@@ -39,13 +39,14 @@ Smoother::Smoother(const Rig<double>& rig, const Acquisition<double>& acquisitio
 tl::expected<void, Error> Smoother::take(const Sample& sample, EstimateSink& sink) {
   Step step;
   step.estimate = tracker_.update(sample, Witness(step));
-  if (step.transition.size() == 0) {
+  const bool follows = step.transition.size() > 0 && step.estimate.attitude;
+  if (!follows) {
     if (auto taken = finish(sink); !taken) {
       return taken;
     }
-    if (!step.estimate.attitude) {
-      return sink.take(step.estimate);
-    }
+  }
+  if (!step.estimate.attitude) {
+    return sink.take(step.estimate);
   }
   Flags known = 0;
   step.measured = measure_gaps(rig_, acquisition_, sample, known);
@@ -74,6 +75,12 @@ Smoother::Belief Smoother::belief_of(const SwingFilter<double>& filter) {
   return belief;
 }
 
+/// Whether it is better than the filter's own: rounding may have broken what was ill-conditioned.
+bool Smoother::is_sound(const Belief& belief) {
+  return belief.state.allFinite() && belief.covariance.allFinite() &&
+         belief.covariance.diagonal().minCoeff() >= 0;
+}
+
 Smoother::Belief Smoother::smoothed_before(const Step& step, const Step& later,
                                            const Belief& smoothed) {
   // In units of each state's own sigma, so that metres and radians are alike. What is known for
@@ -95,7 +102,7 @@ tl::expected<void, Error> Smoother::hand_on(std::int64_t until_us, EstimateSink&
   for (std::size_t i = steps_.size(); i-- > 0;) {
     Step& step = steps_[i];
     belief = i + 1 == steps_.size() ? step.filtered : smoothed_before(step, steps_[i + 1], belief);
-    if (step.estimate.t_us < until_us) {
+    if (step.estimate.t_us < until_us && is_sound(belief)) {
       SwingFilter<double>::State state{};
       Eigen::Map<Eigen::VectorXd>(state.data(), belief.state.size()) = belief.state;
       put_state(rig_, state, {.first = belief.covariance(0, 0), .second = belief.covariance(1, 1)},

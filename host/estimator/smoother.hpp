@@ -14,7 +14,7 @@ namespace penduline {
 
 /// Rauch, Tung and Striebel's smoother on the steps of `SwingTracker` (method.md eq. 32). Each
 /// estimate has seen the samples of 20 s after it, where there are so many; memory is kept for
-/// twice that time, 1.5 kB a sample of two sensors, however long the recording is.
+/// twice that time, 2.2 kB a sample of two sensors, however long the recording is.
 class Smoother final : public Estimator {
  public:
   static constexpr std::int64_t kAheadUs = 20'000'000;
@@ -41,6 +41,7 @@ class Smoother final : public Estimator {
   class Witness;
 
   [[nodiscard]] static Belief belief_of(const SwingFilter<double>& filter);
+  [[nodiscard]] static bool is_sound(const Belief& belief);
   /// What is believed of a step once the next one, `later`, is known to be as `smoothed`.
   [[nodiscard]] static Belief smoothed_before(const Step& step, const Step& later,
                                               const Belief& smoothed);

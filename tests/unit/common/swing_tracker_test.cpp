@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "tests/unit/common/simulated_swing.hpp"
 #include "tests/unit/common/test_rig.hpp"
@@ -174,6 +175,35 @@ TEST_CASE("Samples out of order begin the filter anew", "[swing_tracker]") {
   const auto estimate = followed.push_with([](Sample& sample) { sample.t_us = 1; });
   CHECK(estimate.flags == flag::kOutOfOrder);
   CHECK(followed.error_deg() < 0.5);
+}
+
+TEST_CASE("Readings that no pendulum gives end in no row beyond what can hang", "[swing_tracker]") {
+  std::mt19937_64 random(1);
+  SwingTracker<double> tracker(noisy_rig<double>(), {});
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    Sample sample{.seq = i, .t_us = static_cast<std::int64_t>(i + 1) * 50'000};
+    sample.readings[0].on = static_cast<std::int32_t>(random() % 65536);
+    sample.readings[1].on = static_cast<std::int32_t>(random() % 65536);
+    const auto estimate = tracker.update(sample);
+    if (estimate.attitude) {
+      CHECK(std::abs(estimate.attitude->angles.theta1_rad) < 1.5);
+      CHECK(std::abs(estimate.attitude->angles.theta2_rad) < 1.5);
+      CHECK(estimate.sigma_rad->first >= 0);
+    } else {
+      CHECK((estimate.flags & flag::kNoSolution) != 0);
+    }
+  }
+}
+
+TEST_CASE("Of three sensors one may be dead from the start", "[swing_tracker]") {
+  Rig<double> rig = linear_rig(three_sensor_layout<double>());
+  SwingTracker<double> tracker(rig, {.sensor_count = 3});
+  const Angles<double> tilt{from_degrees(5), from_degrees(-3)};
+  Sample sample = sample_of(0, gaps_at(rig.layout, tilt));
+  sample.missing = 4;
+  const auto estimate = tracker.update(sample);
+  REQUIRE(estimate.attitude);
+  CHECK(estimate.attitude->angles.theta1_rad == Approx(tilt.theta1_rad).margin(1e-3));
 }
 
 TEST_CASE("In float the tracker finds what it does in double", "[swing_tracker]") {
