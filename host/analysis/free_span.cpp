@@ -75,13 +75,14 @@ double median_residual_rad(const std::vector<SwingEllipse>& ellipses) {
 double strongest_period_s(const AngleSeries& series) {
   constexpr double kFinestStepS = 0.01;
   constexpr std::size_t kFewestSteps = 16;
+  constexpr std::size_t kMostSteps = 10'000'000;  // a day at 100 Hz; a clock that jumped has more
   if (series.size() < kFewestSteps) {
     return 0;
   }
   const double span_s = series.t_s.back() - series.t_s.front();
   const double step_s = std::max(series.period_s(), kFinestStepS);
   const auto count = static_cast<std::size_t>(span_s / step_s) + 1;
-  if (count < kFewestSteps) {
+  if (count < kFewestSteps || count > kMostSteps) {
     return 0;
   }
   Eigen::FFT<double> transform;
@@ -104,7 +105,10 @@ tl::expected<FreeSpan, Error> find_free_span(const AngleSeries& series) {
   const double period_s = strongest_period_s(series);
   const double span_s = series.size() < 2 ? 0 : series.t_s.back() - series.t_s.front();
   if (!(period_s > 0)) {
-    return failure("found no swing: the angles do not change, or there are too few of them");
+    return failure(
+        "found no swing: the angles do not change, there are too few of them, or they are spread "
+        "over "
+        "too long a time");
   }
   if (span_s < kFewestSwings * period_s) {
     return failure(fmt::format("found {:.3g} s of swings of {:.3g} s, expected at least {} swings",

@@ -178,7 +178,8 @@ tl::expected<Calibration, Error> calibrate_rest(const RigFile& rig,
     if (!zero) {
       return tl::unexpected(zero.error());
     }
-    result.changes.noise_v[i] = rest->mean.scatter_v;
+    constexpr double kLeastNoiseV = 10e-6;  // an ADC's steps may hide all of it
+    result.changes.noise_v[i] = std::max(rest->mean.scatter_v, kLeastNoiseV);
     const auto at = static_cast<Eigen::Index>(i);
     result.record.parameters.push_back(zero->name);
     result.record.values[at] = zero->value;

@@ -69,9 +69,10 @@ std::vector<SwingState<double>> swing_path(const FreeSwing& swing, const SwingSt
   std::vector<SwingState<double>> path;
   path.reserve(times_s.size());
   SwingNumbers motion{start.theta1_rad, start.theta2_rad, start.omega1_rad_s, start.omega2_rad_s};
-  double now_s = times_s.empty() ? 0 : times_s.front();
+  double now_s = 0;  // from the start on: seconds since 1970 have no digits left for a step
   bool resting = false;
-  for (const double t_s : times_s) {
+  for (const double time_s : times_s) {
+    const double t_s = time_s - times_s.front();
     while (now_s < t_s && !resting) {
       const double longest_s = friction.dry_rad_s2 == 0
                                    ? smooth_step_s
