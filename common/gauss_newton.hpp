@@ -105,4 +105,20 @@ class GaussNewton {
   int steps_;
 };
 
+/// The answer of some of a layout's sensors alone: `gap_m` in the order of `sensors`, their places
+/// in the layout. None where they do not determine the tilt.
+template <class Scalar>
+[[nodiscard]] std::optional<InverseResult<Scalar>> solve_with_some(
+    const SensorLayout<Scalar>& layout, std::span<const std::size_t> sensors,
+    std::span<const Scalar> gap_m) {
+  SensorLayout<Scalar> some{.count = sensors.size(), .disc_offset_m = layout.disc_offset_m};
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    some.position_m[i] = layout.position_m[sensors[i]];
+  }
+  if (sensors.size() < 2 || !determines_tilt(some)) {
+    return std::nullopt;
+  }
+  return GaussNewton<Scalar>(some).solve(gap_m);
+}
+
 }  // namespace penduline

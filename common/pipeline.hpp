@@ -127,8 +127,12 @@ class Pipeline {
   }
 
   void solve(const Gaps& gaps, Estimate<Scalar>& estimate) const {
+    // Of three or more sensors some may be without a gap: the others answer if they can.
     const auto result =
-        gaps.count == rig_.layout.count ? inverse_.solve(gaps.gap_m) : solve_with_fewer(gaps);
+        gaps.count == rig_.layout.count
+            ? inverse_.solve(gaps.gap_m)
+            : solve_with_some<Scalar>(rig_.layout, std::span(gaps.sensor).first(gaps.count),
+                                      std::span(gaps.gap_m).first(gaps.count));
     if (!result) {
       estimate.flags |= flag::kNoSolution;
       return;
@@ -138,18 +142,6 @@ class Pipeline {
     }
     estimate.attitude = attitude_of(result->slopes, rig_.pendulum.length_m);
     estimate.residual_m = result->residual_m;
-  }
-
-  /// Three or more sensors, some without a gap: the others answer if they can.
-  std::optional<InverseResult<Scalar>> solve_with_fewer(const Gaps& gaps) const {
-    SensorLayout<Scalar> layout{.count = gaps.count, .disc_offset_m = rig_.layout.disc_offset_m};
-    for (std::size_t i = 0; i < gaps.count; ++i) {
-      layout.position_m[i] = rig_.layout.position_m[gaps.sensor[i]];
-    }
-    if (!determines_tilt(layout)) {
-      return std::nullopt;
-    }
-    return GaussNewton<Scalar>(layout).solve(gaps.gap_m);
   }
 
   Rig<Scalar> rig_;

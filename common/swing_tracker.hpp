@@ -78,24 +78,16 @@ class SwingTracker {
   /// The tilt that these gaps alone give, if they do: three or more sensors can spare one.
   std::optional<InverseResult<Scalar>> solve(const GapMeasurements<Scalar>& measured) const {
     std::array<Scalar, kMaxSensors> gap_m{};
+    std::array<std::size_t, kMaxSensors> sensor{};
     for (std::size_t i = 0; i < measured.count; ++i) {
       gap_m[i] = measured.gap[i].gap_m;
+      sensor[i] = measured.gap[i].sensor;
     }
     const auto gaps = std::span<const Scalar>(gap_m).first(measured.count);
-    if (measured.count == rig_.layout.count) {
-      return inverse_.solve(gaps);
-    }
-    if constexpr (kMaxSensors > 2) {
-      SensorLayout<Scalar> layout{.count = measured.count,
-                                  .disc_offset_m = rig_.layout.disc_offset_m};
-      for (std::size_t i = 0; i < measured.count; ++i) {
-        layout.position_m[i] = rig_.layout.position_m[measured.gap[i].sensor];
-      }
-      if (measured.count >= 2 && determines_tilt(layout)) {
-        return GaussNewton<Scalar>(layout).solve(gaps);
-      }
-    }
-    return std::nullopt;
+    return measured.count == rig_.layout.count
+               ? inverse_.solve(gaps)
+               : solve_with_some<Scalar>(rig_.layout, std::span(sensor).first(measured.count),
+                                         gaps);
   }
 
   /// Starts from the closed form; false where these gaps have none.

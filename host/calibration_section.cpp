@@ -80,15 +80,6 @@ toml::array texts_of(const std::vector<std::string>& texts) {
   return array;
 }
 
-template <class Numbers>
-toml::array numbers_of(const Numbers& numbers) {
-  toml::array array;
-  for (const double number : numbers) {
-    array.push_back(rounded(number));
-  }
-  return array;
-}
-
 }  // namespace
 
 double rounded(double value, int digits) {
@@ -138,7 +129,7 @@ CalibrationRecord read_calibration(const toml::table& table, TomlFindings& findi
 toml::table calibration_table(const CalibrationRecord& record) {
   toml::array covariance;
   for (Eigen::Index i = 0; i < record.covariance.rows(); ++i) {
-    covariance.push_back(numbers_of(record.covariance.row(i)));
+    covariance.push_back(rounded_numbers(record.covariance.row(i)));
   }
   toml::table table;
   table.insert("method", record.method);
@@ -147,8 +138,8 @@ toml::table calibration_table(const CalibrationRecord& record) {
   table.insert("recordings", texts_of(record.recordings));
   table.insert("residual_m", rounded(record.residual_m));
   table.insert("parameters", texts_of(record.parameters));
-  table.insert("values", numbers_of(record.values));
-  table.insert("sigmas", numbers_of(record.covariance.diagonal().cwiseSqrt()));
+  table.insert("values", rounded_numbers(record.values));
+  table.insert("sigmas", rounded_numbers(record.covariance.diagonal().cwiseSqrt()));
   table.insert("covariance", std::move(covariance));
   if (!record.not_determined.empty()) {
     table.insert("not_determined", texts_of(record.not_determined));

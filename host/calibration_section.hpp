@@ -37,4 +37,14 @@ inline constexpr std::array<std::string_view, 4> kCalibrationMethods = {"static"
 /// A number to as many significant digits: what is beyond no sensor knows, nobody reads.
 [[nodiscard]] double rounded(double value, int digits = 6);
 
+/// Numbers as a TOML array, each rounded so.
+template <class Numbers>
+[[nodiscard]] toml::array rounded_numbers(const Numbers& numbers) {
+  toml::array array;
+  for (const double number : numbers) {
+    array.push_back(rounded(number));
+  }
+  return array;
+}
+
 }  // namespace penduline

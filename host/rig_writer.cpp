@@ -20,15 +20,6 @@
 namespace penduline {
 namespace {
 
-template <class Numbers>
-toml::array rounded_numbers(const Numbers& numbers) {
-  toml::array array;
-  for (const double number : numbers) {
-    array.push_back(rounded(number));
-  }
-  return array;
-}
-
 void put_model(toml::table& table, const LinearResponse<double>& model) {
   table.insert("model", "linear");
   table.insert("gap_at_zero_m", rounded(model.gap_at_zero_m));
