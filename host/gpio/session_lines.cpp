@@ -2,6 +2,7 @@
 // Opening the lines, and what each of them does in a turn.
 #include "host/gpio/session_lines.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace penduline {
@@ -100,8 +101,9 @@ RecordingEvent SessionLines::event_at(std::string_view kind, std::int64_t host_u
   event.fields.push_back({"host_us", host_us});
   // Without the board nobody knows whether its clock still runs.
   if (turn.clock && connected_) {
-    if (const auto t_us = turn.clock->board_time_us(host_us)) {
-      event.fields.push_back({"t_us", *t_us});
+    if (const auto moment = turn.clock->board_moment(host_us)) {
+      event.fields.push_back({"t_us", moment->t_us});
+      event.fields.push_back({"t_uncertainty_us", std::llround(moment->uncertainty_us)});
     }
   }
   return event;

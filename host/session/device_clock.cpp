@@ -145,7 +145,7 @@ std::optional<DeviceClock::HostMoment> DeviceClock::host_moment(std::int64_t t_u
                     .uncertainty_us = uncertainty_us(state)};
 }
 
-std::optional<std::int64_t> DeviceClock::board_time_us(std::int64_t monotonic_us) const {
+std::optional<DeviceClock::BoardMoment> DeviceClock::board_moment(std::int64_t monotonic_us) const {
   if (used_ == 0) {
     return std::nullopt;
   }
@@ -153,7 +153,10 @@ std::optional<std::int64_t> DeviceClock::board_time_us(std::int64_t monotonic_us
   const double us =
       (static_cast<double>(monotonic_us - reference_us_) - state_.offset_us) / (1 + state_.drift);
   const std::int64_t t_us = reference_us_ + std::llround(us);
-  return t_us >= 0 ? std::optional(t_us) : std::nullopt;
+  if (t_us < 0) {
+    return std::nullopt;
+  }
+  return BoardMoment{.t_us = t_us, .uncertainty_us = uncertainty_us(at(t_us))};
 }
 
 std::optional<DeviceClock::Drift> DeviceClock::drift() const {

@@ -38,9 +38,14 @@ class DeviceClock {
   /// the first.
   [[nodiscard]] std::optional<HostMoment> host_moment(std::int64_t t_us) const;
 
+  /// A moment of the board's, and how far off it may be, as for a HostMoment.
+  struct BoardMoment {
+    std::int64_t t_us;
+    double uncertainty_us;
+  };
   /// The board's time at the host's time `monotonic_us` (CLOCK_MONOTONIC); none before the first
   /// exchange, and where the board had not started yet.
-  [[nodiscard]] std::optional<std::int64_t> board_time_us(std::int64_t monotonic_us) const;
+  [[nodiscard]] std::optional<BoardMoment> board_moment(std::int64_t monotonic_us) const;
 
   struct Drift {
     double ppm;              ///< above 0 where the board's clock is fast

@@ -37,12 +37,14 @@ def link_before(events, event):
 class RunWithLinesTest(lines.LinesTest):
     def assert_board_time_is_right(self, events, event):
         """The event's t_us is its host_us by the quickest Pong before it, whose way back may have taken all the
-        round trip or none."""
+        round trip or none, within the uncertainty that it states."""
         pong = min(of_kind(link_before(events, event), "pong"),
                    key=lambda pong: pong["received_us"] - pong["sent_us"])
         t_us = event["host_us"] + pong["t_us"] - (pong["sent_us"] + pong["received_us"]) // 2
         round_trip_us = pong["received_us"] - pong["sent_us"]
-        self.assertAlmostEqual(event["t_us"], t_us, delta=round_trip_us / 2 + 500)
+        # Of a guest that is slow to wake up at its first Pong; usually it is below a millisecond.
+        self.assertLess(event["t_uncertainty_us"], 50e3)
+        self.assertAlmostEqual(event["t_us"], t_us, delta=event["t_uncertainty_us"] + round_trip_us / 2)
 
 
 class ReleaseTest(RunWithLinesTest):
@@ -57,12 +59,12 @@ class ReleaseTest(RunWithLinesTest):
         events, samples = recorded()
         (release,) = of_kind(events, "release")
         seen_us = watch.changes[0][0] * 1e6
-        self.assertAlmostEqual(release["host_us"], seen_us, delta=5e3)
+        self.assertAlmostEqual(release["host_us"], seen_us, delta=50e3)
         self.assert_board_time_is_right(events, release)
-        # A sample is on its way for some milliseconds.
-        self.assertAlmostEqual(release["t_us"] - samples[0][1], 2e6, delta=20e3)
+        # A sample is on its way for some milliseconds, for longer in a guest that is slow to wake up.
+        self.assertAlmostEqual(release["t_us"] - samples[0][1], 2e6, delta=100e3)
         self.assertAlmostEqual(release["utc"].timestamp() - release["host_us"] / 1e6,
-                               time.time() - time.monotonic(), delta=1e-3)
+                               time.time() - time.monotonic(), delta=20e-3)
 
     def test_without_the_option_the_magnet_is_left_alone(self):
         watch = self.start(lines.Watch, self.magnet)

@@ -68,14 +68,16 @@ TEST_CASE("Exchanges without jitter give the time to the microsecond, before and
 }
 
 TEST_CASE("The board's time at a moment of the host's is the way back", "[clock]") {
-  CHECK_FALSE(DeviceClock().board_time_us(10 * kSecond));
+  CHECK_FALSE(DeviceClock().board_moment(10 * kSecond));
   const DeviceClock even = followed(10, 40);
-  CHECK(even.board_time_us(25 * kSecond) == 20 * kSecond);
-  CHECK_FALSE(even.board_time_us(5 * kSecond - 1));  // the board had not started
+  CHECK(even.board_moment(25 * kSecond)->t_us == 20 * kSecond);
+  CHECK(even.board_moment(25 * kSecond)->uncertainty_us ==
+        even.host_moment(20 * kSecond)->uncertainty_us);
+  CHECK_FALSE(even.board_moment(5 * kSecond - 1));  // the board had not started
   const DeviceClock fast = followed(10, 40, 50);
   for (const std::int64_t t_us : {20 * kSecond, 34 * kSecond, 100 * kSecond}) {
     const std::int64_t host_us = fast.host_moment(t_us)->monotonic_us;
-    CHECK(std::abs(fast.board_time_us(host_us).value() - t_us) <= 1);
+    CHECK(std::abs(fast.board_moment(host_us)->t_us - t_us) <= 1);
   }
 }
 

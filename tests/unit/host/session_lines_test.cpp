@@ -3,6 +3,7 @@
 #include "host/gpio/session_lines.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
@@ -130,7 +131,9 @@ TEST_CASE("The release is an event with the host's times and the board's", "[gpi
   CHECK(events[0].kind == "release");
   CHECK(events[0].utc_us);
   const auto host_us = events[0].get<std::int64_t>("host_us").value();
-  CHECK(events[0].get<std::int64_t>("t_us") == bench.clock->board_time_us(host_us));
+  const auto moment = bench.clock->board_moment(host_us).value();
+  CHECK(events[0].get<std::int64_t>("t_us") == moment.t_us);
+  CHECK(events[0].get<std::int64_t>("t_uncertainty_us") == std::llround(moment.uncertainty_us));
   CHECK(bench.said == Texts{"the magnet has let go"});
   CHECK(bench.gpio.wire("MAGNET")->levels() == Levels{true, false});
 }
