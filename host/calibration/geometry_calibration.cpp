@@ -12,6 +12,7 @@
 #include "common/closed_form.hpp"
 #include "host/calibration/geometry_numbers.hpp"
 #include "host/calibration/static_calibration.hpp"
+#include "host/calibration/swing_checks.hpp"
 #include "host/calibration/swing_data.hpp"
 #include "host/units.hpp"
 
@@ -115,6 +116,21 @@ std::vector<double> sigmas_of(const Fit& fit, std::size_t first, std::size_t cou
   return sigmas;
 }
 
+/// The gaps that a response tells from all others.
+GapRange readable_gaps(const Response<double>& response) {
+  return {std::max(nearest_readable_m(response), response.nearest_m), response.farthest_m};
+}
+
+/// In words, where samples of a sensor are not used.
+std::string unreadable_gaps(const RigFile& rig, std::size_t sensor) {
+  const GapRange range = readable_gaps(rig.rig.responses[sensor]);
+  const std::string where = "without a sound reading, off the disc, or ";
+  return where + (std::isfinite(range.farthest_m)
+                      ? fmt::format("not at {:.2f} to {:.2f} mm, where its response holds",
+                                    range.nearest_m / kMillimetre, range.farthest_m / kMillimetre)
+                      : fmt::format("nearer than {:.2f} mm", range.nearest_m / kMillimetre));
+}
+
 /// Sensors that stand nobody knows exactly where; their responses are the rig's.
 class PlacesUnknown final : public SensorModel {
  public:
@@ -133,9 +149,8 @@ class PlacesUnknown final : public SensorModel {
   }
   [[nodiscard]] bool readable(std::span<const double> /*numbers*/, std::size_t sensor,
                               double gap_m) const override {
-    const Response<double>& response = rig_.rig.responses[sensor];
-    return gap_m >= std::max(nearest_readable_m(response), response.nearest_m) &&
-           gap_m <= response.farthest_m &&
+    const GapRange range = readable_gaps(rig_.rig.responses[sensor]);
+    return gap_m >= range.nearest_m && gap_m <= range.farthest_m &&
            beam_meets_disc(rig_.rig.layout, sensor, gap_m, rig_.rig.disc_diameter_m);
   }
 
@@ -212,6 +227,9 @@ tl::expected<Calibration, Error> calibrate_geometry(const RigFile& rig,
   if (!swings) {
     return tl::unexpected(swings.error());
   }
+  if (const auto beyond = require_beyond_fold(rig, *swings); !beyond) {
+    return tl::unexpected(beyond.error());
+  }
   GeometryNumbers numbers(rig);
   tl::expected<SignalFit, Error> fit;
   do {
@@ -228,6 +246,11 @@ tl::expected<Calibration, Error> calibrate_geometry(const RigFile& rig,
   }
   Calibration result;
   for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
+    if (const auto counted =
+            account_for_left_out(rig, i, *fit, unreadable_gaps(rig, i), logs.front().path, result);
+        !counted) {
+      return tl::unexpected(counted.error());
+    }
     result.figure.panels.push_back(residual_panel(rig.sensor_names[i], fit->used[i]));
   }
   result.record.parameters = fit->names;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/calibration/static_calibration.hpp"
+#include "host/calibration/swing_checks.hpp"
 #include "host/calibration/swing_data.hpp"
 #include "host/units.hpp"
 
@@ -15,7 +16,6 @@ namespace penduline {
 namespace {
 
 constexpr std::size_t kCurveDegree = 4;
-constexpr double kMostLeftOut = 0.25;
 
 /// Sensors whose responses are unknown; they stand where the rig says.
 class ResponsesUnknown final : public SensorModel {
@@ -102,28 +102,6 @@ tl::expected<std::array<double, kMaxSensors>, Error> gains(const RigFile& rig,
   return gain;
 }
 
-/// Refuses swings that go so near to a sensor that hardly a signal tells a gap.
-tl::expected<void, Error> require_beyond_fold(const RigFile& rig,
-                                              const std::vector<SwingData>& swings) {
-  for (const SwingData& swing : swings) {
-    for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
-      const auto doubtful = std::ranges::count_if(
-          swing.doubtful, [&](const std::array<bool, kMaxSensors>& of) { return of[i]; });
-      const double share =
-          static_cast<double>(doubtful) / static_cast<double>(swing.doubtful.size());
-      if (share > kMostLeftOut) {
-        return failure(fmt::format(
-            "{}: sensor {}: {:.0f} % of the samples are at the fold of its response or beside it, "
-            "nearer than {:.2f} mm, or unreadable, expected {:.0f} % or less: swing less far, or "
-            "mount it higher",
-            swing.name, rig.sensor_names[i], share * 100,
-            nearest_readable_m(rig.rig.responses[i]) / kMillimetre, kMostLeftOut * 100));
-      }
-    }
-  }
-  return {};
-}
-
 /// The gaps over which the sensors see the disc swing, by the first guess.
 std::vector<GapRange> ranges_of(const RigFile& rig, const std::vector<SwingData>& swings) {
   std::vector<GapRange> ranges;
@@ -158,15 +136,13 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
   constexpr double kNarrowestM = 2e-3;
   const std::string& name = rig.sensor_names[sensor];
   const std::vector<UsedSignal>& used = fit.used[sensor];
-  const std::size_t left_out = fit.left_out[sensor];
-  const auto share = static_cast<double>(left_out) /
-                     static_cast<double>(std::max<std::size_t>(left_out + used.size(), 1));
   const double readable_m = nearest_readable_m(rig.rig.responses[sensor]);
-  if (share > kMostLeftOut) {
-    return failure(fmt::format(
-        "{}: sensor {}: {:.0f} % of the samples are nearer than {:.2f} mm, where the signal folds "
-        "back, or off the disc, expected {:.0f} % or less: swing less far, or mount it higher",
-        path, name, share * 100, readable_m / kMillimetre, kMostLeftOut * 100));
+  const std::string unreadable = fmt::format(
+      "without a sound reading, off the disc, or nearer than {:.2f} mm, where the signal folds "
+      "back at its peak and two gaps give one signal",
+      readable_m / kMillimetre);
+  if (auto counted = account_for_left_out(rig, sensor, fit, unreadable, path, result); !counted) {
+    return counted;
   }
   const GapRange range = seen_range(used, readable_m);
   if (range.farthest_m - range.nearest_m < kNarrowestM) {
@@ -182,12 +158,6 @@ tl::expected<void, Error> add_sensor(const RigFile& rig, std::size_t sensor, con
         fmt::format("{}: sensor {}: the signal does not keep falling as the gap grows "
                     "from {:.2f} to {:.2f} mm",
                     path, name, range.nearest_m / kMillimetre, range.farthest_m / kMillimetre));
-  }
-  if (left_out > 0) {
-    result.warnings.push_back(fmt::format(
-        "sensor {}: {} of {} samples are left out: nearer than {:.2f} mm the signal folds back at "
-        "its peak, where two gaps give one signal, or the beam misses the disc",
-        name, left_out, left_out + used.size(), readable_m / kMillimetre));
   }
   const Response<double> response =
       model.curve(sensor).response(numbers, range, rig.rig.responses[sensor].peak_m);
@@ -224,26 +194,6 @@ tl::expected<void, Error> require_known_angles(const SignalFit& fit, const std::
 }
 
 }  // namespace
-
-tl::expected<void, Error> require_good_swing(const SignalFit& fit,
-                                             const std::vector<SignalLog>& logs,
-                                             const Pendulum<double>& pendulum) {
-  constexpr double kMostResidualM = 0.2e-3;
-  const std::string& path = logs.front().path;
-  if (fit.residual_m > kMostResidualM) {
-    return failure(fmt::format(
-        "{}: the best fit misses the gaps by {:.2f} mm RMS, expected {:.1f} mm or less: no free "
-        "swing of one pendulum of about {} m does that",
-        path, fit.residual_m / kMillimetre, kMostResidualM / kMillimetre, pendulum.length_m));
-  }
-  if (fit.release_s < -0.1 / small_swing_hz(pendulum)) {
-    return failure(
-        fmt::format("{}: the pendulum was let go {:.2f} s before the recording begins, "
-                    "expected the release to be in it",
-                    path, -fit.release_s));
-  }
-  return {};
-}
 
 tl::expected<Calibration, Error> calibrate_swing(const RigFile& rig,
                                                  const std::vector<SignalLog>& logs,

@@ -32,10 +32,4 @@ inline constexpr double kGivenLengthShare = 0.001;
                                                                const std::vector<SignalLog>& logs,
                                                                const SwingOptions& options);
 
-/// Refuses swings that the fit does not describe, or a release that is not in the recording. `most`
-/// is what the angles may be uncertain by.
-[[nodiscard]] tl::expected<void, Error> require_good_swing(const SignalFit& fit,
-                                                           const std::vector<SignalLog>& logs,
-                                                           const Pendulum<double>& pendulum);
-
 }  // namespace penduline

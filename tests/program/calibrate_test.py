@@ -85,6 +85,15 @@ class CalibrateTest(ProgramTest):
                       done.stdout)
         self.assertIn("not_determined = ", self.new.read_text())
 
+    def test_a_geometry_by_a_swing_that_leaves_samples_out_warns_and_strict_tells(self):
+        swing = self.record("swing.csv", "--theta-deg", 12, "--phi-deg", 30, "--psi", 2.5)
+        rig = self.write("short.toml", self.real.read_text().replace(
+            'model = "table"', 'model = "table", range_m = [0.003, 0.0125]', 1))
+        done = run("calibrate", "geometry", swing, "--rig", rig, "-o", self.new, "--strict", status=3)
+        self.assertRegex(done.stderr, r"warning: sensor Sx: \d+ of 200 samples are left out: they are "
+                         r".*or not at 3\.00 to 12\.50 mm, where its response holds\n")
+        self.assertTrue(self.new.exists())
+
     def test_points_in_the_fold_are_warned_of_and_strict_tells(self):
         gaps = (1.0, 1.6, 2.2, 2.6, 3.2, 4, 5, 6, 8, 10, 12, 14)
         rows = ["from_s,to_s,gap_x_mm,gap_y_mm"]

@@ -87,6 +87,43 @@ TEST_CASE("Known gaps tell nothing of where a sensor stands", "[calibration]") {
         "sensor stands");
 }
 
+TEST_CASE("Samples of a swing beyond a response's range are left out, counted and warned of",
+          "[calibration]") {
+  RigFile rig = typical_rig();
+  rig.rig.responses[0].farthest_m = 0.0125;
+  const auto result = calibrate_geometry(rig, {recorded(displaced(), ellipse(20, 1))}, {});
+  REQUIRE(result);
+  REQUIRE(result->warnings.size() == 1);
+  const std::string& warning = result->warnings.front();
+  INFO(warning);
+  const auto of = warning.find(
+      " of 400 samples are left out: they are without a sound reading, off "
+      "the disc, or not at 3.00 to 12.50 mm, where its response holds");
+  REQUIRE(of != std::string::npos);
+  CHECK(warning.starts_with("sensor Sx: "));
+  CHECK(std::stoi(warning.substr(11)) > 10);
+  CHECK(std::stoi(warning.substr(11)) < 100);
+}
+
+TEST_CASE("A swing of which a sensor's response holds for half is no geometry", "[calibration]") {
+  RigFile rig = typical_rig();
+  rig.rig.responses[0].farthest_m = 0.0095;
+  const auto result = calibrate_geometry(rig, {recorded(displaced(), ellipse(20, 1))}, {});
+  REQUIRE_FALSE(result);
+  INFO(result.error().message);
+  CHECK(result.error().message.starts_with("rec.csv: sensor Sx: "));
+  CHECK(result.error().message.find("expected 25 % or less") != std::string::npos);
+}
+
+TEST_CASE("A swing through the fold is no geometry", "[calibration]") {
+  const auto swing = settings_for({.theta_rad = 30 * kRadPerDeg}, 20, 1);
+  const auto result = calibrate_geometry(typical_rig(), {recorded(displaced(), swing)}, {});
+  REQUIRE_FALSE(result);
+  CHECK(
+      result.error().message.find("% of the samples are at the fold of its response or beside it, "
+                                  "nearer than 3.00 mm") != std::string::npos);
+}
+
 TEST_CASE("A free swing tells the geometry but for a turn about the vertical", "[calibration]") {
   const auto result =
       calibrate_geometry(typical_rig(), {recorded(displaced(), ellipse(20, 1))}, {});
