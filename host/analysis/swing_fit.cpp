@@ -196,11 +196,6 @@ tl::expected<SwingFit, Error> fit_swing(const AngleSeries& series, FrictionTerms
   }
   result.chi_square = fit->residuals.squaredNorm();
   result.covariance = fit->covariance * result.repetition;
-  for (const std::size_t held : fit->at_bound) {
-    // A friction of 0 that would be less: the others are known as if it were not in the model.
-    result.covariance.row(static_cast<Eigen::Index>(held)).setZero();
-    result.covariance.col(static_cast<Eigen::Index>(held)).setZero();
-  }
   return result;
 }
 

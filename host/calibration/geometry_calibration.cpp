@@ -253,9 +253,7 @@ tl::expected<Calibration, Error> calibrate_geometry(const RigFile& rig,
     }
     result.figure.panels.push_back(residual_panel(rig.sensor_names[i], fit->used[i]));
   }
-  result.record.parameters = fit->names;
-  result.record.values = fit->fit.values;
-  result.record.covariance = fit->fit.covariance;
+  put_numbers(*fit, result);
   return concluded(rig, numbers, fit->sensor_numbers(), fit->residual_m, std::move(result));
 }
 

@@ -231,15 +231,13 @@ tl::expected<Calibration, Error> calibrate_swing(const RigFile& rig,
     return tl::unexpected(known.error());
   }
   result.record.method = "swing";
-  result.record.parameters = fit->names;
-  result.record.values = fit->fit.values;
-  result.record.covariance = fit->fit.covariance;
   result.record.residual_m = fit->residual_m;
   result.notes.push_back(fmt::format(
       "the swing's amplitude is known to {:.3f} deg; effective length {:.5f} +- {:.5f} m, the rig "
       "says {} m",
       fit->angle_sigma_rad / kDegree, fit->fit.values[0], fit->fit.sigma(0),
       rig.rig.pendulum.length_m));
+  put_numbers(*fit, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "host/calibration/swing_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -75,6 +76,20 @@ tl::expected<void, Error> account_for_left_out(const RigFile& rig, std::size_t s
                                           name, left_out, all, where));
   }
   return {};
+}
+
+void put_numbers(const SignalFit& fit, Calibration& result) {
+  result.record.parameters = fit.names;
+  result.record.values = fit.fit.values;
+  result.record.covariance = fit.fit.covariance;
+  std::vector<std::string> held;
+  for (const std::size_t i : fit.fit.at_bound) {
+    held.push_back(fit.names[i]);
+  }
+  if (!held.empty()) {
+    result.notes.push_back(
+        fmt::format("held at 0, for less than none is no friction: {}", fmt::join(held, ", ")));
+  }
 }
 
 }  // namespace penduline

@@ -33,4 +33,7 @@ namespace penduline {
                                                              const std::string& path,
                                                              Calibration& result);
 
+/// Puts a fit's numbers into the record, and says which frictions are held at 0.
+void put_numbers(const SignalFit& fit, Calibration& result);
+
 }  // namespace penduline

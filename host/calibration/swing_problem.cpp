@@ -107,14 +107,16 @@ std::size_t SwingProblem::prior_count() const {
 
 void SwingProblem::add_pendulum(const Pendulum<double>& pendulum, double length_share) {
   constexpr double kFriction = 0.05;
-  const auto add = [&](const char* name, double start, double scale, double prior) {
-    unknowns_.push_back({{.name = name, .start = start, .scale = scale}, prior});
+  unknowns_.push_back({{.name = "effective_length_m",
+                        .start = pendulum.length_m,
+                        .scale = 1e-3 * pendulum.length_m},
+                       length_share * pendulum.length_m});
+  const auto add = [&](const char* name, double start) {
+    unknowns_.push_back({{.name = name, .start = start, .scale = 1e-3, .low = 0}, kFriction});
   };
-  add("effective_length_m", pendulum.length_m, 1e-3 * pendulum.length_m,
-      length_share * pendulum.length_m);
-  add("damping_per_s", pendulum.damping_per_s, 1e-3, kFriction);
-  add("quadratic_per_rad", 0, 1e-3, kFriction);
-  add("dry_rad_s2", 0, 1e-3, kFriction);
+  add("damping_per_s", pendulum.damping_per_s);
+  add("quadratic_per_rad", 0);
+  add("dry_rad_s2", 0);
 }
 
 void SwingProblem::add_start(const SwingData& swing, const Pendulum<double>& pendulum) {

@@ -223,6 +223,10 @@ tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& para
   fit.values = at.cwiseProduct(problem.scales());
   fit.covariance = problem.scales().asDiagonal() * inverse_normal(here) *
                    problem.scales().asDiagonal() * (fit.scatter * fit.scatter);
+  for (const std::size_t held : fit.at_bound) {
+    fit.covariance.row(static_cast<Eigen::Index>(held)).setZero();
+    fit.covariance.col(static_cast<Eigen::Index>(held)).setZero();
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const bool held = std::ranges::find(fit.at_bound, i) != fit.at_bound.end();
     if (!held && !(fit.sigma(i) <= parameters[i].coarsest_sigma)) {

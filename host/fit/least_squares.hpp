@@ -31,9 +31,11 @@ using FitResiduals = std::function<void(const Eigen::VectorXd& values, Eigen::Ve
 
 /// A fit that has come to its minimum.
 struct Fit {
-  Eigen::VectorXd values;      ///< in the parameters' order
-  Eigen::MatrixXd covariance;  ///< of `values`, with the scatter that the residuals themselves have
-  Eigen::VectorXd residuals;   ///< that are left, in standard deviations
+  Eigen::VectorXd values;  ///< in the parameters' order
+  /// Of `values`, with the scatter that the residuals themselves have. What is held at a bound has
+  /// none: the others are known as if it had not been looked for.
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd residuals;  ///< that are left, in standard deviations
   /// RMS of `residuals` over their degrees of freedom: 1 where the standard deviations are right.
   double scatter = 0;
   std::vector<std::size_t> undetermined;  ///< parameters whose sigma is above their coarsest

@@ -44,6 +44,23 @@ TEST_CASE("A parameter stays within its bounds, and one that would go on is name
   CHECK(fit->at_bound == std::vector<std::size_t>{0});
 }
 
+TEST_CASE(
+    "What is held at its bound is not uncertain, and the others are known as if it were given") {
+  const auto held = fit_least_squares({{.name = "b1", .start = 210, .scale = 100, .high = 220},
+                                       {.name = "b2", .start = 1e-4, .scale = 1e-4}},
+                                      kX.size(), misra1a);
+  const auto alone = fit_least_squares({{.name = "b2", .start = 1e-4, .scale = 1e-4}}, kX.size(),
+                                       [](const Eigen::VectorXd& b2, Eigen::VectorXd& residuals) {
+                                         misra1a(Eigen::Vector2d(220, b2[0]), residuals);
+                                       });
+  REQUIRE(held);
+  REQUIRE(alone);
+  CHECK(held->sigma(0) == 0);
+  CHECK(held->covariance(0, 1) == 0);
+  // One more degree of freedom.
+  CHECK(held->sigma(1) == Approx(alone->sigma(0) * std::sqrt(13.0 / 12)).epsilon(1e-4));
+}
+
 TEST_CASE("A number that the data do not see is named as undetermined") {
   const auto sum_only = [](const Eigen::VectorXd& values, Eigen::VectorXd& residuals) {
     residuals.setConstant(values[0] + values[1] - 3);

@@ -38,6 +38,25 @@ TEST_CASE("An elliptic swing of half a minute calibrates sensors that nobody mea
   CHECK(calibrated.responses[0].farthest_m < 0.016);
 }
 
+TEST_CASE("Frictions are 0 or more; one at 0 is held there, and that is said", "[calibration]") {
+  Rig<double> real = real_rig(3);
+  real.pendulum.damping_per_s = 0;
+  const auto result = calibrate_swing(typical_rig(), {recorded(real, ellipse(20, 3))}, {});
+  REQUIRE(result);
+  std::string held;
+  for (Eigen::Index i = 1; i < 4; ++i) {
+    CAPTURE(result->record.parameters[static_cast<std::size_t>(i)], result->record.values[i]);
+    CHECK(result->record.values[i] >= 0);
+    CHECK((result->record.covariance(i, i) == 0) == (result->record.values[i] == 0));
+    if (result->record.values[i] == 0) {
+      held += (held.empty() ? "" : ", ") + result->record.parameters[static_cast<std::size_t>(i)];
+    }
+  }
+  REQUIRE_FALSE(held.empty());
+  CHECK(result->notes.back() == "held at 0, for less than none is no friction: " + held);
+  CHECK(result->record.covariance(0, 0) > 0);
+}
+
 TEST_CASE("A swing in a plane across both sensors does not tell its angles", "[calibration]") {
   CHECK(error_of(planar(12, 45, 20)).find("leaves its amplitude uncertain by ") !=
         std::string::npos);
