@@ -18,6 +18,10 @@ Json json_of(const Measured& figure) {
   return {{"value", number(figure.value)}, {"sigma", number(figure.sigma)}};
 }
 
+Json no_figure() {
+  return {{"value", nullptr}, {"sigma", nullptr}};
+}
+
 Json json_of(const std::optional<Measured>& figure) {
   return figure ? json_of(*figure) : Json(nullptr);
 }
@@ -69,7 +73,8 @@ Json damping_of(const SwingAnalysis& analysis) {
           {"quadratic_per_rad", json_of(analysis.quadratic_per_rad)},
           {"dry_rad_s2", json_of(analysis.dry_rad_s2)},
           {"q_at_start", json_of(analysis.quality_at_start)},
-          {"q_at_end", json_of(analysis.quality_at_end)},
+          {"q_at_end", analysis.came_to_rest ? no_figure() : json_of(analysis.quality_at_end)},
+          {"came_to_rest", analysis.came_to_rest},
           {"models", models},
           {"leaving_out",
            {{"linear", json_of(friction.linear)},

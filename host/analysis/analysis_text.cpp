@@ -98,7 +98,8 @@ void put_friction(const SwingAnalysis& analysis, Report& report) {
   }
   if (analysis.quality_at_start) {
     report.line("Q at the start", with_sigma(*analysis.quality_at_start));
-    report.line("Q at the end", with_sigma(*analysis.quality_at_end));
+    report.line("Q at the end", analysis.quality_at_end ? with_sigma(*analysis.quality_at_end)
+                                                        : "none: the pendulum came to rest");
   }
   report.note("model                       residual / deg    BIC above the best");
   for (const FrictionCandidate& candidate : friction.candidates) {

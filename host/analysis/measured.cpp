@@ -24,8 +24,9 @@ Measured propagated(const Eigen::VectorXd& values, const Eigen::MatrixXd& covari
     gradient[i] = (gradient[i] - figure(moved)) / (2 * step);
     moved[i] = values[i];
   }
-  return {.value = figure(values),
-          .sigma = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
+  const double variance = gradient.dot(covariance * gradient);
+  // Rounding below 0 is none; what is no number stays none.
+  return {.value = figure(values), .sigma = variance < 0 ? 0 : std::sqrt(variance)};
 }
 
 Measured LinearFit::factor(Eigen::Index i) const {

@@ -15,7 +15,8 @@ struct Measured {
 };
 
 /// A number made of fitted values: its sigma follows from theirs to first order, by central
-/// differences of a tenth of each value's own sigma.
+/// differences of a tenth of each value's own sigma. It is not finite where the figure there is
+/// not.
 [[nodiscard]] Measured propagated(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
                                   const std::function<double(const Eigen::VectorXd&)>& figure);
 

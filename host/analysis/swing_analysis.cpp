@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,8 +27,9 @@ tl::expected<FreeSpan, Error> span_to_analyse(const AngleSeries& series,
   const double found_s = part.size() < 2 ? 0 : part.t_s.back() - part.t_s.front();
   if (!(period_s > 0) || found_s < kFewestSwings * period_s) {
     return failure(fmt::format(
-        "found {:.3g} s of angles from {} s to {} s, expected at least {} swings", found_s,
-        settings.from_s.value_or(-kAny), settings.to_s.value_or(kAny), kFewestSwings));
+        "found {:.3g} s of angles from {} to {}, expected at least {} swings", found_s,
+        settings.from_s ? fmt::format("{} s", *settings.from_s) : "the beginning",
+        settings.to_s ? fmt::format("{} s", *settings.to_s) : "the end", kFewestSwings));
   }
   return FreeSpan{.from_s = part.t_s.front(), .to_s = part.t_s.back(), .period_s = period_s};
 }
@@ -63,6 +65,13 @@ std::vector<double> energies(const SwingModel& model, double start_s,
   }
   result.erase(result.begin());
   return result;
+}
+
+/// Whether dry friction holds the mass at a moment after the start.
+bool rests_at(const SwingModel& model, double time_s) {
+  const SwingState<double> state =
+      swing_path(model.swing, model.start, std::array{0.0, time_s}).back();
+  return state.omega1_rad_s == 0 && state.omega2_rad_s == 0;
 }
 
 /// 2 pi over what a swing loses of its energy's logarithm, from `from_s` after the start on.
@@ -143,12 +152,15 @@ void describe_friction(SwingAnalysis& analysis) {
     analysis.dry_rad_s2 = figure(&Friction::dry_rad_s2);
   }
   if (fit.terms.count() > 0) {
-    const double last_s =
-        analysis.series.t_s.back() - analysis.series.t_s.front() - small_period_of(fit.model);
+    const double duration_s = analysis.series.t_s.back() - analysis.series.t_s.front();
+    const double last_s = duration_s - small_period_of(fit.model);
     analysis.quality_at_start =
         fit.figure([](const SwingModel& model) { return quality(model, 0); });
-    analysis.quality_at_end =
-        fit.figure([&](const SwingModel& model) { return quality(model, last_s); });
+    analysis.came_to_rest = rests_at(fit.model, duration_s);
+    if (!analysis.came_to_rest) {
+      analysis.quality_at_end =
+          fit.figure([&](const SwingModel& model) { return quality(model, last_s); });
+    }
   }
 }
 

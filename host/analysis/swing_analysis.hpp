@@ -51,7 +51,8 @@ struct SwingAnalysis {
   std::optional<Measured> quadratic_per_rad;
   std::optional<Measured> dry_rad_s2;
   std::optional<Measured> quality_at_start;  ///< none without friction
-  std::optional<Measured> quality_at_end;
+  std::optional<Measured> quality_at_end;    ///< nor where it came to rest
+  bool came_to_rest = false;  ///< the chosen model's mass, held by dry friction before the end
 
   Measured semi_major_rad;  ///< of the first swing, by the model
   Measured semi_minor_rad;

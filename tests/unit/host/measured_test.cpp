@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace penduline;
@@ -43,6 +44,15 @@ TEST_CASE("What is known exactly adds no uncertainty") {
   const Measured figure = propagated(Eigen::VectorXd{{2, 4}}, Eigen::MatrixXd::Zero(2, 2),
                                      [](const Eigen::VectorXd& at) { return at[0] + at[1]; });
   CHECK(figure.sigma == 0);
+}
+
+TEST_CASE("Where the figure of values nearby is no number, nothing is known of its uncertainty") {
+  const Measured figure =
+      propagated(Eigen::VectorXd{{2}}, Eigen::MatrixXd::Ones(1, 1), [](const Eigen::VectorXd& at) {
+        return at[0] > 2 ? std::numeric_limits<double>::infinity() : at[0];
+      });
+  CHECK(figure.value == 2);
+  CHECK_FALSE(std::isfinite(figure.sigma));
 }
 
 TEST_CASE("Values that stand there five times each repeat five times") {
