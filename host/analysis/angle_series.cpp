@@ -68,6 +68,12 @@ std::optional<Columns> find_columns(std::string_view line) {
                  .flags = at("flags")};
 }
 
+void leave_out(bool without_angles, Flags against, AngleSeries& series) {
+  ++series.left_out;
+  series.without_angles += without_angles ? 1U : 0U;
+  series.flags_against.count(against);
+}
+
 /// Puts a row's angles into the series, or counts it as left out.
 tl::expected<void, Error> take_row(const LineReader& lines, const Columns& columns,
                                    AngleSeries& series) {
@@ -88,9 +94,9 @@ tl::expected<void, Error> take_row(const LineReader& lines, const Columns& colum
   const bool empty =
       is_missing(cells[columns.theta1]) || (columns.theta2 && is_missing(cells[*columns.theta2]));
   const double flags = columns.flags ? number(*columns.flags) : 0;
-  const bool doubtful = (static_cast<Flags>(flags) & ~kHarmless) != 0;
-  if (!wrong && (empty || doubtful)) {
-    ++series.left_out;
+  const Flags against = static_cast<Flags>(flags) & ~kHarmless;
+  if (!wrong && (empty || against != 0)) {
+    leave_out(empty, against, series);
     return {};
   }
   const double t_s = number(columns.t_s);
@@ -121,7 +127,23 @@ AngleSeries AngleSeries::between(double from_s, double to_s) const {
           .theta1_rad = part(theta1_rad),
           .theta2_rad = part(theta2_rad),
           .planar = planar,
-          .left_out = left_out};
+          .left_out = left_out,
+          .without_angles = without_angles,
+          .flags_against = flags_against};
+}
+
+std::string AngleSeries::left_out_text() const {
+  if (left_out == 0) {
+    return "";
+  }
+  std::string reasons = without_angles > 0 ? fmt::format("{} without angles", without_angles) : "";
+  if (const std::string flags = flags_against.text(); !flags.empty()) {
+    reasons += (reasons.empty() ? "" : "; ") + flags;
+  }
+  if (reasons.empty()) {
+    reasons = "flags that this version does not know";
+  }
+  return fmt::format("{} of {} rows are left out ({})", left_out, left_out + size(), reasons);
 }
 
 double AngleSeries::period_s() const {
@@ -204,8 +226,9 @@ tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
       return series;
     }
     const Estimate<double> estimate = pipeline.update(sample);
-    if (!estimate.attitude || (estimate.flags & ~kHarmless) != 0) {
-      ++series.left_out;
+    const Flags against = estimate.flags & ~kHarmless;
+    if (!estimate.attitude || against != 0) {
+      leave_out(!estimate.attitude, against, series);
       continue;
     }
     const double t_s = 1e-6 * static_cast<double>(estimate.t_us);

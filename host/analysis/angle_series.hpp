@@ -10,6 +10,7 @@
 
 #include "common/rig.hpp"
 #include "hal/error.hpp"
+#include "host/flag_counts.hpp"
 
 namespace penduline {
 
@@ -20,7 +21,12 @@ struct AngleSeries {
   std::vector<double> theta2_rad{};  ///< all 0 where the swing is `planar`
   bool planar = false;               ///< the file has one angle only
   std::size_t left_out = 0;          ///< rows without angles, or with a flag against them
+  std::size_t without_angles = 0;    ///< of these
+  FlagCounts flags_against{};        ///< those that the rows left out have
 
+  /// In words: "1180 of 1200 rows are left out (20 without angles; 1160 disturbed)"; empty where
+  /// none is.
+  [[nodiscard]] std::string left_out_text() const;
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
   /// The rows from the moment `from_s` to `to_s`, both included.
   [[nodiscard]] AngleSeries between(double from_s, double to_s) const;

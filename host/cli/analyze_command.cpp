@@ -89,7 +89,9 @@ ExitStatus analyze(const AnalyzeOptions& options) {
   }
   const auto analysis = analyze_swing(*series, settings);
   if (!analysis) {
-    return log_failure({fmt::format("{}: {}", options.path, analysis.error().message)});
+    const std::string left_out = series->left_out_text();
+    return log_failure({fmt::format("{}: {}{}{}", options.path, analysis.error().message,
+                                    left_out.empty() ? "" : "; ", left_out)});
   }
   if (const auto written = write_report(options, *analysis); !written) {
     return log_failure(written.error());
@@ -100,8 +102,7 @@ ExitStatus analyze(const AnalyzeOptions& options) {
     }
   }
   if (series->left_out > 0) {
-    log_warning(fmt::format("{}: {} rows without angles or with a flag against them are left out",
-                            options.path, series->left_out));
+    log_warning(fmt::format("{}: {}", options.path, series->left_out_text()));
   }
   return options.strict && series->left_out > 0 ? ExitStatus::kDoubtful : ExitStatus::kDone;
 }

@@ -207,6 +207,9 @@ SessionResult run_session(const SessionParts& parts, const SessionOptions& optio
   if (const auto complaint = result.summary.rate_complaint()) {
     complaints.push_back(*complaint);
   }
+  if (const auto complaint = result.summary.noise_complaint()) {
+    complaints.push_back(*complaint);
+  }
   if (ended && result.summary.samples() == 0) {
     complaints.push_back(parts.source.place() + ": found no sample, expected at least one");
   }

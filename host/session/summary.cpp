@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstddef>
 
 namespace penduline {
 
@@ -23,14 +22,11 @@ void Summary::count(const Sample& sample) {
 }
 
 Flags Summary::count(const Estimate<double>& estimate) {
+  ++estimates_;
   with_angles_ += estimate.attitude ? 1U : 0U;
   const Flags fresh = estimate.flags & ~seen_;
   seen_ |= estimate.flags;
-  if (estimate.flags != 0) {
-    for (std::size_t i = 0; i < kFlagDescriptions.size(); ++i) {
-      flagged_[i] += (estimate.flags & kFlagDescriptions[i].bit) != 0 ? 1U : 0U;
-    }
-  }
+  flagged_.count(estimate.flags);
   return fresh;
 }
 
@@ -56,20 +52,30 @@ std::optional<std::string> Summary::rate_complaint() const {
                      nominal_hz_);
 }
 
+std::optional<std::string> Summary::noise_complaint() const {
+  constexpr std::uint64_t kFewest = 20;
+  constexpr std::uint64_t kOneIn = 10;
+  const std::uint64_t disturbed = flagged_.of(flag::kDisturbed);
+  if (disturbed < kFewest || disturbed * kOneIn <= estimates_) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "{} of {} estimates are disturbed: unless something moves the pendulum, noise_v or noise_m "
+      "of "
+      "the rig's sensors is too small; 'penduline calibrate rest' measures the noise",
+      disturbed, estimates_);
+}
+
 std::string Summary::text() const {
   std::string text = fmt::format("{} samples", samples_);
   if (const auto rate = rate_hz()) {
     text += fmt::format(" at {:.3f} Hz", *rate);
   }
   text += fmt::format(", {} lost, {} with angles", lost_, with_angles_);
-  std::string_view separator = "; flagged: ";
-  for (std::size_t i = 0; i < kFlagDescriptions.size(); ++i) {
-    if (flagged_[i] > 0) {
-      text += fmt::format("{}{} {}", separator, flagged_[i], kFlagDescriptions[i].name);
-      separator = ", ";
-    }
+  if (const std::string flagged = flagged_.text(); !flagged.empty()) {
+    text += "; flagged: " + flagged;
   }
-  separator = "; dropped: ";
+  std::string_view separator = "; dropped: ";
   for (const auto& [output, rows] : dropped_) {
     text += fmt::format("{}{} rows by {}", separator, rows, output);
     separator = ", ";

@@ -2,7 +2,6 @@
 // What a session counted: samples, losses, flags, and the rate that was really held.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "common/estimate.hpp"
 #include "common/flags.hpp"
 #include "common/sample.hpp"
+#include "host/flag_counts.hpp"
 
 namespace penduline {
 
@@ -33,6 +33,10 @@ class Summary {
   /// made for; none where they are within 10 %.
   [[nodiscard]] std::optional<std::string> rate_complaint() const;
 
+  /// In words, that the rig may have its noise too small; none where at most a tenth of the
+  /// estimates, or fewer than 20, are `disturbed`.
+  [[nodiscard]] std::optional<std::string> noise_complaint() const;
+
   /// Whether any flag but the ordinary ones was seen.
   [[nodiscard]] bool has_problems() const { return (seen_ & ~flag::kOrdinary) != 0; }
 
@@ -49,7 +53,8 @@ class Summary {
   std::uint64_t samples_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t with_angles_ = 0;
-  std::array<std::uint64_t, kFlagDescriptions.size()> flagged_{};
+  std::uint64_t estimates_ = 0;
+  FlagCounts flagged_;
   Flags seen_ = 0;
   Continuity continuity_;
   std::int64_t last_t_us_ = 0;

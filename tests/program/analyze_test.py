@@ -124,7 +124,26 @@ class AnalyzeTest(ProgramTest):
         table = self.angles(lambda t: 0.1 * math.cos(omega * t))
         table.write_text(table.read_text().replace("\n2.000,", "\n2.000,nan\n2.001,"))
         done = run("analyze", table, "--strict", status=3)
-        self.assertIn("1 rows without angles or with a flag against them are left out", done.stderr)
+        self.assertIn("angles.csv: 1 of 1001 rows are left out (1 without angles)", done.stderr)
+
+    def test_noise_that_is_larger_than_told_is_named_and_measured_by_a_rest(self):
+        # Five times what the rig's sensors say.
+        recording, _ = self.simulate("--theta-deg", 10, "--psi", 1, "--gap-noise", "50e-6")
+        estimates = self.folder / "estimates.csv"
+        noisy = run("replay", recording, "--rig", RIGS / "paper.toml", "--estimator", "ekf", "-o",
+                    estimates)
+        self.assertRegex(noisy.stderr, r"warning: \d+ of \d+ estimates are disturbed: unless "
+                         "something moves the pendulum, noise_v or noise_m of the rig's sensors is too "
+                         "small")
+        done = run("analyze", estimates, status=1)
+        self.assertRegex(done.stderr, r"expected at least \d swings.*; \d+ of \d+ rows are left out "
+                         r"\(.*\d+ disturbed\)")
+        still, told = self.folder / "still.csv", self.folder / "told.toml"
+        run("simulate", "--rig", RIGS / "paper.toml", "--theta-deg", 0, "--gap-noise", "50e-6",
+            "--seconds", 120, "-o", still)
+        run("calibrate", "rest", still, "--rig", RIGS / "paper.toml", "-o", told)
+        run("replay", recording, "--rig", told, "--estimator", "ekf", "-o", estimates)
+        self.assertEqual(analyze(estimates)["rows_left_out"], 0)
 
     def test_wrong_usage_is_refused(self):
         for options in (["--latitude-deg", 91], ["--from-s", "nan"], ["--format", "xml"],

@@ -51,6 +51,18 @@ TEST_CASE("Rows without angles or with a flag against them are left out and coun
   REQUIRE(series);
   CHECK(series->t_s == std::vector<double>{1, 2});
   CHECK(series->left_out == 2);
+  CHECK(series->left_out_text() == "2 of 4 rows are left out (1 without angles; 1 folded)");
+}
+
+TEST_CASE("Where nothing is left out there is nothing to say of it") {
+  CHECK(read("t_s,theta_rad\n0,0.1\n")->left_out_text().empty());
+}
+
+TEST_CASE("A flag of a newer version leaves a row out, and that is said") {
+  const auto series = read("t_s,theta_rad,flags\n0,0.1,0\n1,0.1,1073741824\n");
+  REQUIRE(series);
+  CHECK(series->left_out_text() ==
+        "1 of 2 rows are left out (flags that this version does not know)");
 }
 
 TEST_CASE("A last row that does not end is not used") {

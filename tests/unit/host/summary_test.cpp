@@ -109,6 +109,28 @@ TEST_CASE("Rows that an output dropped are said behind the flags", "[session]") 
   CHECK_FALSE(summary.has_problems());
 }
 
+TEST_CASE("More than a tenth of disturbed estimates may be the rig's noise, and that is said",
+          "[session]") {
+  Summary summary = at_20_hz();
+  for (int i = 0; i < 200; ++i) {
+    summary.count(flagged(i < 20 ? flag::kDisturbed : 0));
+  }
+  CHECK_FALSE(summary.noise_complaint());
+  summary.count(flagged(flag::kDisturbed));
+  CHECK(
+      summary.noise_complaint() ==
+      "21 of 201 estimates are disturbed: unless something moves the pendulum, noise_v or noise_m "
+      "of the rig's sensors is too small; 'penduline calibrate rest' measures the noise");
+}
+
+TEST_CASE("A moment's hand in a short run says nothing of the rig's noise", "[session]") {
+  Summary summary = at_20_hz();
+  for (int i = 0; i < 19; ++i) {
+    summary.count(flagged(flag::kDisturbed));
+  }
+  CHECK_FALSE(summary.noise_complaint());
+}
+
 TEST_CASE("A flag is fresh once", "[session]") {
   Summary summary = at_20_hz();
   CHECK(summary.count(flagged(flag::kMissing)) == flag::kMissing);
