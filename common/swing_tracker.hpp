@@ -23,8 +23,11 @@
 
 namespace penduline {
 
-/// What sees a tracker's filter between prediction and measurements: nobody, but for a smoother.
+/// What sees a sample's gaps, and a tracker's filter between prediction and them: nobody, but for a
+/// smoother.
 struct NoWitness {
+  template <class Measurements>
+  void measured(const Measurements& /*gaps*/) {}
   template <class Transition, class Filter>
   void predicted(const Transition& /*transition*/, const Filter& /*filter*/) {}
 };
@@ -51,6 +54,7 @@ class SwingTracker {
         .t_us = sample.t_us, .seq = sample.seq, .flags = sample.flags | verdict.flags};
     const GapMeasurements<Scalar> measured =
         measure_gaps(rig_, acquisition_, sample, estimate.flags);
+    witness.measured(measured);
     const bool other_time = (estimate.flags & (flag::kRestarted | flag::kOutOfOrder)) != 0 ||
                             sample.t_us - last_t_us_ > kLongestBridgeUs;
     if (!begun_ || other_time) {

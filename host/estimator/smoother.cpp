@@ -11,10 +11,12 @@
 
 namespace penduline {
 
-/// Notes the filter between prediction and measurements.
+/// Notes the gaps, and the filter between prediction and them.
 class Smoother::Witness {
  public:
   explicit Witness(Step& step) : step_(step) {}
+
+  void measured(const GapMeasurements<double>& gaps) { step_.measured = gaps; }
 
   void predicted(const SwingFilter<double>::Transition& transition,
                  const SwingFilter<double>& filter) {
@@ -34,7 +36,7 @@ class Smoother::Witness {
 };
 
 Smoother::Smoother(const Rig<double>& rig, const Acquisition<double>& acquisition)
-    : rig_(rig), acquisition_(acquisition), tracker_(rig, acquisition) {}
+    : rig_(rig), tracker_(rig, acquisition) {}
 
 tl::expected<void, Error> Smoother::take(const Sample& sample, EstimateSink& sink) {
   Step step;
@@ -48,8 +50,6 @@ tl::expected<void, Error> Smoother::take(const Sample& sample, EstimateSink& sin
   if (!step.estimate.attitude) {
     return sink.take(step.estimate);
   }
-  Flags known = 0;
-  step.measured = measure_gaps(rig_, acquisition_, sample, known);
   step.filtered = belief_of(tracker_.filter());
   steps_.push_back(std::move(step));
   if (sample.t_us - steps_.front().estimate.t_us < 2 * kAheadUs) {

@@ -49,7 +49,6 @@ class Smoother final : public Estimator {
   tl::expected<void, Error> hand_on(std::int64_t until_us, EstimateSink& sink);
 
   Rig<double> rig_;
-  Acquisition<double> acquisition_;
   SwingTracker<double> tracker_;
   std::deque<Step> steps_;  ///< each but the first follows from the one before it
 };
