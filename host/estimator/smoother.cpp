@@ -3,8 +3,8 @@
 #include "host/estimator/smoother.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/swing_estimate.hpp"
@@ -52,14 +52,16 @@ tl::expected<void, Error> Smoother::take(const Sample& sample, EstimateSink& sin
   }
   step.filtered = belief_of(tracker_.filter());
   steps_.push_back(std::move(step));
-  if (sample.t_us - steps_.front().estimate.t_us < 2 * kAheadUs) {
-    return {};
+  if (sample.t_us - steps_.front().estimate.t_us >= 2 * kAheadUs) {
+    const auto kept = std::ranges::lower_bound(steps_, sample.t_us - kAheadUs, {},
+                                               [](const Step& past) { return past.estimate.t_us; });
+    return hand_on(static_cast<std::size_t>(kept - steps_.begin()), sink);
   }
-  return hand_on(sample.t_us - kAheadUs, sink);
+  return steps_.size() < kMostSteps ? tl::expected<void, Error>() : hand_on(kMostSteps / 2, sink);
 }
 
 tl::expected<void, Error> Smoother::finish(EstimateSink& sink) {
-  return hand_on(std::numeric_limits<std::int64_t>::max(), sink);
+  return hand_on(steps_.size(), sink);
 }
 
 Smoother::Belief Smoother::belief_of(const SwingFilter<double>& filter) {
@@ -97,19 +99,19 @@ Smoother::Belief Smoother::smoothed_before(const Step& step, const Step& later,
                         gain * (smoothed.covariance - predicted) * gain.transpose()};
 }
 
-tl::expected<void, Error> Smoother::hand_on(std::int64_t until_us, EstimateSink& sink) {
+tl::expected<void, Error> Smoother::hand_on(std::size_t count, EstimateSink& sink) {
   Belief belief;
   for (std::size_t i = steps_.size(); i-- > 0;) {
     Step& step = steps_[i];
     belief = i + 1 == steps_.size() ? step.filtered : smoothed_before(step, steps_[i + 1], belief);
-    if (step.estimate.t_us < until_us && is_sound(belief)) {
+    if (i < count && is_sound(belief)) {
       SwingFilter<double>::State state{};
       Eigen::Map<Eigen::VectorXd>(state.data(), belief.state.size()) = belief.state;
       put_state(rig_, state, {.first = belief.covariance(0, 0), .second = belief.covariance(1, 1)},
                 step.measured, step.estimate);
     }
   }
-  while (!steps_.empty() && steps_.front().estimate.t_us < until_us) {
+  for (; count > 0; --count) {
     if (auto taken = sink.take(steps_.front().estimate); !taken) {
       return taken;
     }

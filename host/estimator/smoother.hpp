@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 
@@ -14,10 +15,12 @@ namespace penduline {
 
 /// Rauch, Tung and Striebel's smoother on the steps of `SwingTracker` (method.md eq. 32). Each
 /// estimate has seen the samples of 20 s after it, where there are so many; memory is kept for
-/// twice that time, 2.2 kB a sample of two sensors, however long the recording is.
+/// twice that time, 2.2 kB a sample of two sensors, however long the recording is, and for 40 000
+/// samples at most: above 1 kHz an estimate has seen the next 20 000 samples instead.
 class Smoother final : public Estimator {
  public:
   static constexpr std::int64_t kAheadUs = 20'000'000;
+  static constexpr std::size_t kMostSteps = 40'000;
 
   Smoother(const Rig<double>& rig, const Acquisition<double>& acquisition);
 
@@ -45,8 +48,8 @@ class Smoother final : public Estimator {
   /// What is believed of a step once the next one, `later`, is known to be as `smoothed`.
   [[nodiscard]] static Belief smoothed_before(const Step& step, const Step& later,
                                               const Belief& smoothed);
-  /// Goes back from the newest step; hands on those before `until_us` and forgets them.
-  tl::expected<void, Error> hand_on(std::int64_t until_us, EstimateSink& sink);
+  /// Goes back from the newest step; hands on the first `count` and forgets them.
+  tl::expected<void, Error> hand_on(std::size_t count, EstimateSink& sink);
 
   Rig<double> rig_;
   SwingTracker<double> tracker_;

@@ -140,6 +140,24 @@ TEST_CASE("Rows are handed on while samples still come", "[smoother]") {
   }
 }
 
+TEST_CASE("At most 40 000 samples wait, however many there are in 40 s", "[smoother]") {
+  // 10 kHz, of a pendulum at rest: 40 s would be 400 000.
+  SimulatedSwing still(1, {});
+  Sample sample = still.next(0);
+  Smoother smoother(noisy_rig<double>(), {.rate_hz = 10'000});
+  KeepingSink sink;
+  for (std::size_t i = 0; i < 50'000; ++i) {
+    sample.seq = i;
+    sample.t_us = 100 * static_cast<std::int64_t>(i);
+    REQUIRE(smoother.take(sample, sink));
+    REQUIRE(i + 1 - sink.estimates.size() < Smoother::kMostSteps);
+  }
+  CHECK(sink.estimates.size() == 20'000);
+  REQUIRE(smoother.finish(sink));
+  REQUIRE(sink.estimates.size() == 50'000);
+  CHECK(sink.estimates.back().seq == 49'999);
+}
+
 TEST_CASE("Nothing is smoothed across a board's new start", "[smoother]") {
   SimulatedSwing swing(1, start_of(1));
   auto samples = samples_of(swing, 100);
