@@ -6,67 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "common/pipeline.hpp"
 #include "hal/replay/cells.hpp"
-#include "hal/replay/line_reader.hpp"
 #include "host/source/source.hpp"
 
 namespace penduline {
 namespace {
-
-/// Angles near a restart or after a dropout are as good as others: each stands for itself.
-constexpr Flags kHarmless = flag::kOrdinary | flag::kOverrun | flag::kLate | flag::kDropout;
-
-/// Goes to the next whole line that is neither blank nor a comment; false at the end. What stands
-/// behind the last newline may have lost digits, and one row matters to no analysis.
-tl::expected<bool, Error> next_line(LineReader& lines) {
-  while (true) {
-    const auto outcome = lines.next();
-    if (!outcome) {
-      return tl::unexpected(outcome.error());
-    }
-    if (*outcome != LineReader::Outcome::kLine) {
-      return false;
-    }
-    if (!trimmed(lines.line()).empty() && !lines.line().starts_with('#')) {
-      return true;
-    }
-  }
-}
-
-/// Where the columns stand in a row.
-struct Columns {
-  std::size_t count = 0;
-  std::size_t t_s = 0;
-  std::size_t theta1 = 0;
-  std::optional<std::size_t> theta2;
-  std::optional<std::size_t> flags;
-};
-
-std::optional<Columns> find_columns(std::string_view line) {
-  const auto names = split_cells(line, ",");
-  const auto at = [&](std::string_view name) -> std::optional<std::size_t> {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) {
-      return std::nullopt;
-    }
-    return static_cast<std::size_t>(found - names.begin());
-  };
-  const auto time = at("t_s");
-  const auto only = at("theta_rad");
-  const auto first = only ? only : at("theta1_rad");
-  const auto second = only ? std::nullopt : at("theta2_rad");
-  if (!time || !first || (!only && !second)) {
-    return std::nullopt;
-  }
-  return Columns{.count = names.size(),
-                 .t_s = *time,
-                 .theta1 = *first,
-                 .theta2 = second,
-                 .flags = at("flags")};
-}
 
 void leave_out(bool without_angles, Flags against, AngleSeries& series) {
   ++series.left_out;
@@ -75,43 +21,34 @@ void leave_out(bool without_angles, Flags against, AngleSeries& series) {
 }
 
 /// Puts a row's angles into the series, or counts it as left out.
-tl::expected<void, Error> take_row(const LineReader& lines, const Columns& columns,
+tl::expected<void, Error> take_row(const NumberTable& table, const AngleColumns& columns,
                                    AngleSeries& series) {
-  const auto cells = split_cells(lines.line(), ",");
-  if (cells.size() != columns.count) {
-    return failure(
-        fmt::format("{}: found {} cells, expected {}", lines.place(), cells.size(), columns.count));
+  const auto flags = columns.flags ? table.number(*columns.flags) : 0;
+  if (!flags) {
+    return tl::unexpected(flags.error());
   }
-  std::optional<Error> wrong;
-  const auto number = [&](std::size_t column) {
-    const auto value = parse_number<double>(cells[column]);
-    if (!value || !std::isfinite(*value)) {
-      wrong = Error{one_line(fmt::format("{}: found '{}' in column {}, expected a number",
-                                         lines.place(), excerpt(cells[column]), column + 1))};
-    }
-    return value.value_or(0);
-  };
   const bool empty =
-      is_missing(cells[columns.theta1]) || (columns.theta2 && is_missing(cells[*columns.theta2]));
-  const double flags = columns.flags ? number(*columns.flags) : 0;
-  const Flags against = static_cast<Flags>(flags) & ~kHarmless;
-  if (!wrong && (empty || against != 0)) {
+      table.is_empty(columns.theta1) || (columns.theta2 && table.is_empty(*columns.theta2));
+  const Flags against = static_cast<Flags>(*flags) & ~kHarmlessToAngles;
+  if (empty || against != 0) {
     leave_out(empty, against, series);
     return {};
   }
-  const double t_s = number(columns.t_s);
-  const double theta1_rad = number(columns.theta1);
-  const double theta2_rad = columns.theta2 ? number(*columns.theta2) : 0;
-  if (wrong) {
-    return tl::unexpected(*wrong);
+  const auto t_s = table.number(columns.t_s);
+  const auto theta1_rad = table.number(columns.theta1);
+  const auto theta2_rad = columns.theta2 ? table.number(*columns.theta2) : 0;
+  for (const auto* number : {&t_s, &theta1_rad, &theta2_rad}) {
+    if (!*number) {
+      return tl::unexpected(number->error());
+    }
   }
-  if (!series.t_s.empty() && !(t_s > series.t_s.back())) {
+  if (!series.t_s.empty() && !(*t_s > series.t_s.back())) {
     return failure(fmt::format("{}: the time went from {} s to {} s, expected it to rise",
-                               lines.place(), series.t_s.back(), t_s));
+                               table.place(), series.t_s.back(), *t_s));
   }
-  series.t_s.push_back(t_s);
-  series.theta1_rad.push_back(theta1_rad);
-  series.theta2_rad.push_back(theta2_rad);
+  series.t_s.push_back(*t_s);
+  series.theta1_rad.push_back(*theta1_rad);
+  series.theta2_rad.push_back(*theta2_rad);
   return {};
 }
 
@@ -159,43 +96,47 @@ double AngleSeries::period_s() const {
 }
 
 tl::expected<bool, Error> is_angle_table(const std::string& path) {
-  auto lines = LineReader::open(path);
-  if (!lines) {
-    return tl::unexpected(lines.error());
+  const auto table = NumberTable::open(path);
+  if (!table) {
+    return tl::unexpected(table.error());
   }
-  const auto more = next_line(*lines);
-  if (!more) {
-    return tl::unexpected(more.error());
-  }
-  return *more && lines->line().find("theta") != std::string_view::npos;
+  return table->names().find("theta") != std::string::npos;
 }
 
-tl::expected<AngleSeries, Error> read_angle_table(const std::string& path) {
-  auto lines = LineReader::open(path);
-  if (!lines) {
-    return tl::unexpected(lines.error());
-  }
-  auto more = next_line(*lines);
-  if (!more) {
-    return tl::unexpected(more.error());
-  }
-  const auto columns = *more ? find_columns(lines->line()) : std::nullopt;
-  if (!columns) {
+tl::expected<AngleColumns, Error> find_angle_columns(const NumberTable& table) {
+  const auto time = table.column("t_s");
+  const auto only = table.column("theta_rad");
+  const auto first = only ? only : table.column("theta1_rad");
+  const auto second = only ? std::nullopt : table.column("theta2_rad");
+  if (!time || !first || (!only && !second)) {
     return failure(fmt::format(
         "{}: found the columns '{}', expected t_s with theta1_rad and theta2_rad, or with "
         "theta_rad",
-        lines->place(), *more ? excerpt(lines->line()) : ""));
+        table.place(), excerpt(table.names())));
+  }
+  return AngleColumns{
+      .t_s = *time, .theta1 = *first, .theta2 = second, .flags = table.column("flags")};
+}
+
+tl::expected<AngleSeries, Error> read_angle_table(const std::string& path) {
+  auto table = NumberTable::open(path);
+  if (!table) {
+    return tl::unexpected(table.error());
+  }
+  const auto columns = find_angle_columns(*table);
+  if (!columns) {
+    return tl::unexpected(columns.error());
   }
   AngleSeries series{.planar = !columns->theta2};
   while (true) {
-    more = next_line(*lines);
+    const auto more = table->next();
     if (!more) {
       return tl::unexpected(more.error());
     }
     if (!*more) {
       return series;
     }
-    if (const auto taken = take_row(*lines, *columns, series); !taken) {
+    if (const auto taken = take_row(*table, *columns, series); !taken) {
       return tl::unexpected(taken.error());
     }
   }
@@ -226,7 +167,7 @@ tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
       return series;
     }
     const Estimate<double> estimate = pipeline.update(sample);
-    const Flags against = estimate.flags & ~kHarmless;
+    const Flags against = estimate.flags & ~kHarmlessToAngles;
     if (!estimate.attitude || against != 0) {
       leave_out(!estimate.attitude, against, series);
       continue;

@@ -3,16 +3,23 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "common/flags.hpp"
 #include "common/rig.hpp"
 #include "hal/error.hpp"
+#include "host/analysis/number_table.hpp"
 #include "host/flag_counts.hpp"
 
 namespace penduline {
+
+/// Angles near a restart or after a dropout are as good as others: each stands for itself.
+inline constexpr Flags kHarmlessToAngles =
+    flag::kOrdinary | flag::kOverrun | flag::kLate | flag::kDropout;
 
 /// Angles that can be trusted, at rising times.
 struct AngleSeries {
@@ -37,6 +44,17 @@ struct AngleSeries {
 /// Whether the first line that is no comment names angles, not readings of sensors. Fails where the
 /// file cannot be read.
 [[nodiscard]] tl::expected<bool, Error> is_angle_table(const std::string& path);
+
+/// Where a table has its angles.
+struct AngleColumns {
+  std::size_t t_s = 0;
+  std::size_t theta1 = 0;  ///< `theta1_rad`, or `theta_rad` alone
+  std::optional<std::size_t> theta2{};
+  std::optional<std::size_t> flags{};
+};
+
+/// Fails, naming file and line, where time or angles are missing.
+[[nodiscard]] tl::expected<AngleColumns, Error> find_angle_columns(const NumberTable& table);
 
 /// Reads columns separated by commas: `t_s` with `theta1_rad` and `theta2_rad`, or with `theta_rad`
 /// alone. Others are ignored but `flags`. Fails, naming file and line, where one is missing, a cell

@@ -131,14 +131,13 @@ void add_rig_option(CLI::App& command, std::string& path) {
       ->type_name("FILE");
 }
 
-void add_estimation_options(CLI::App& command, EstimationOptions& options) {
+void add_estimator_options(CLI::App& command, EstimatorOptions& options) {
   const std::map<std::string, EstimatorKind> estimators{{"gn", EstimatorKind::kGaussNewton},
                                                         {"ekf", EstimatorKind::kKalman},
                                                         {"smoother", EstimatorKind::kSmoother},
                                                         {"paper", EstimatorKind::kPaper}};
-  add_rig_option(command, options.rig_path);
   command
-      .add_option("--estimator", options.estimator.kind,
+      .add_option("--estimator", options.kind,
                   "gn: filter, response, Gauss-Newton, row by row;\n"
                   "ekf: Kalman filter on the pendulum's own motion, row by row, without delay;\n"
                   "smoother: the same, corrected by what came later; not for a live run;\n"
@@ -147,17 +146,22 @@ void add_estimation_options(CLI::App& command, EstimationOptions& options) {
       ->type_name("gn|ekf|smoother|paper")
       ->default_str("gn");
   command.add_flag(
-      "--align", options.estimator.align,
+      "--align", options.align,
       "With paper: take the filter's delay out of the rows' times (the others always do)");
-  add_output_options(command, options.output);
-  command.add_flag("--strict", options.strict,
-                   "End with status 3 where the data had flagged problems");
   command.parse_complete_callback([&options] {
-    if (options.estimator.align && options.estimator.kind != EstimatorKind::kPaper) {
+    if (options.align && options.kind != EstimatorKind::kPaper) {
       throw CLI::ValidationError(
           "--align", "is for --estimator paper; the rows of the others are aligned already");
     }
   });
+}
+
+void add_estimation_options(CLI::App& command, EstimationOptions& options) {
+  add_rig_option(command, options.rig_path);
+  add_estimator_options(command, options.estimator);
+  add_output_options(command, options.output);
+  command.add_flag("--strict", options.strict,
+                   "End with status 3 where the data had flagged problems");
 }
 
 tl::expected<RigFile, Error> load_rig(const std::string& path) {

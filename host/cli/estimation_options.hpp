@@ -38,6 +38,10 @@ struct EstimationRun {
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options);
 
+/// Adds `--estimator` and what goes with it. A command has one callback after parsing, which is
+/// theirs.
+void add_estimator_options(CLI::App& command, EstimatorOptions& options);
+
 /// Adds `--rig` to a command that needs one.
 void add_rig_option(CLI::App& command, std::string& path);
 

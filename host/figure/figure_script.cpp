@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// A figure in gnuplot's language: terminal, panels, curves.
+#include "host/figure/figure_script.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <string_view>
+
+namespace penduline {
+namespace {
+
+FigureSize size_of(const Figure& figure) {
+  constexpr int kPanelWidthPx = 620;
+  constexpr int kPanelHeightPx = 480;
+  const auto count = static_cast<int>(figure.panels.size());
+  return figure.size.value_or(
+      figure.stacked
+          ? FigureSize{.width_px = kPanelWidthPx, .height_px = kPanelHeightPx / 2 * count}
+          : FigureSize{.width_px = kPanelWidthPx * count, .height_px = kPanelHeightPx});
+}
+
+std::string gnuplot_string(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    result += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
+  }
+  return result + "'";
+}
+
+void put_rows(std::string& script, const Curve& curve, bool in_space) {
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    auto out = std::back_inserter(script);
+    const double x = curve.x[i];
+    const double y = curve.y[i];
+    if (!std::isfinite(x) || !std::isfinite(y) || (in_space && !std::isfinite(curve.z[i]))) {
+      script += '\n';  // gnuplot lifts its pen
+    } else if (in_space) {
+      fmt::format_to(out, "{} {} {}\n", x, y, curve.z[i]);
+    } else if (curve.style == CurveStyle::kErrorBars) {
+      fmt::format_to(out, "{} {} {}\n", x, y, curve.sigma_y[i]);
+    } else if (curve.style == CurveStyle::kBand) {
+      fmt::format_to(out, "{} {} {}\n", x, y - curve.sigma_y[i], y + curve.sigma_y[i]);
+    } else {
+      fmt::format_to(out, "{} {}\n", x, y);
+    }
+  }
+}
+
+/// How a curve looks, but for its colour.
+std::string style_of(const Curve& curve) {
+  switch (curve.style) {
+    case CurveStyle::kLine:
+      return fmt::format("lines linewidth 1.5 dashtype {}", curve.dash + 1);
+    case CurveStyle::kPoints:
+      return "points pointtype 7 pointsize 0.4";
+    case CurveStyle::kBand:
+      return "filledcurves fillstyle transparent solid 0.3 noborder";
+    case CurveStyle::kMarks:
+      return "points pointtype 8 pointsize 0.9";
+    case CurveStyle::kErrorBars:
+      break;
+  }
+  return "yerrorbars pointtype 7 pointsize 0.4";
+}
+
+/// The columns that a curve's style needs said.
+std::string_view columns_of(const Curve& curve) {
+  return curve.style == CurveStyle::kBand ? " using 1:2:3" : "";
+}
+
+void put_axes(std::string& script, const Panel& panel) {
+  fmt::format_to(std::back_inserter(script), "set title {}\nset xlabel {}\nset ylabel {}\n",
+                 gnuplot_string(panel.title), gnuplot_string(panel.x_label),
+                 gnuplot_string(panel.y_label));
+  script += panel.key_above ? "set key outside above right horizontal samplen 2.5\n"
+                            : "set key inside right top vertical samplen 4\n";
+  script += panel.logarithmic ? "set logscale xy\nset format '%g'\n" : "";
+  if (panel.z_label.empty()) {
+    script += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
+    return;
+  }
+  // A box about the path, whose floor is at the lowest tic.
+  script += "set border 895\nset xyplane 0\nset grid xtics ytics ztics\nset view 62,35,1,1.1\n";
+  script += panel.equal_scales ? "set view equal xy\n" : "";
+  fmt::format_to(std::back_inserter(script),
+                 "set xlabel offset 0,-0.5\nset ylabel offset 1,-0.5\n"
+                 "set zlabel {} rotate parallel offset -1.5,0\n",
+                 gnuplot_string(panel.z_label));
+}
+
+void put_panel(std::string& script, const Panel& panel) {
+  // Colours that the colour-blind tell apart (Okabe and Ito), grey and black.
+  constexpr std::array<std::string_view, kBlack + 1> kColours = {
+      "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999", "#000000"};
+  const bool in_space = !panel.z_label.empty();
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    fmt::format_to(std::back_inserter(script), "$curve{} << END\n", i);
+    put_rows(script, panel.curves[i], in_space);
+    script += "END\n";
+  }
+  put_axes(script, panel);
+  script += in_space ? "splot " : "plot ";
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const Curve& curve = panel.curves[i];
+    fmt::format_to(std::back_inserter(script), "{}$curve{}{} with {} linecolor rgb '{}' {}",
+                   i == 0 ? "" : ", ", i, columns_of(curve), style_of(curve),
+                   kColours[curve.colour.value_or(i % kGrey)],
+                   curve.name.empty() ? "notitle" : "title " + gnuplot_string(curve.name));
+  }
+  script += '\n';
+}
+
+}  // namespace
+
+std::optional<std::string> terminal_for(const Figure& figure, const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  const auto [width_px, height_px] = size_of(figure);
+  if (ending == ".svg") {
+    return fmt::format("svg size {},{} font 'sans,12' background 'white'", width_px, height_px);
+  }
+  if (ending == ".png") {
+    return fmt::format("pngcairo size {},{} font 'sans,11'", width_px, height_px);
+  }
+  if (ending == ".pdf") {
+    constexpr double kPerInch = 100;
+    return fmt::format("pdfcairo size {:.2f},{:.2f} font 'sans,11'", width_px / kPerInch,
+                       height_px / kPerInch);
+  }
+  return std::nullopt;
+}
+
+std::string script_of(const Figure& figure, const std::string& terminal,
+                      const std::string& output) {
+  std::string script = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
+                                   terminal, gnuplot_string(output));
+  script += "set grid linecolor rgb '#dddddd'\nset tics nomirror\n";
+  const std::size_t count = figure.panels.size();
+  fmt::format_to(std::back_inserter(script), "set multiplot layout {},{} title {}\n",
+                 figure.stacked ? count : 1, figure.stacked ? 1 : count,
+                 gnuplot_string(figure.title));
+  // One above the other, axes begin at one place however wide their numbers are.
+  script += figure.stacked ? "set lmargin 10\nset rmargin 3\n" : "";
+  for (const Panel& panel : figure.panels) {
+    put_panel(script, panel);
+  }
+  return script + "unset multiplot\n";
+}
+
+}  // namespace penduline
