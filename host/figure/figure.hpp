@@ -30,6 +30,7 @@ struct Curve {
   std::vector<double> z{};              ///< of a panel in space
   std::optional<std::size_t> colour{};  ///< of the palette; its place in the panel unless given
   std::size_t dash = 0;                 ///< which pattern a line has; 0: none
+  double line_width = 1.5;
 };
 
 /// The colours of the palette that are no curve's unless asked for.
@@ -43,9 +44,10 @@ struct Panel {
   std::string y_label{};
   std::string z_label{};  ///< given: a panel in space, whose curves have z
   std::vector<Curve> curves{};
-  bool equal_scales = false;  ///< a metre as long across as up; in space: of x and y
-  bool logarithmic = false;   ///< both axes
-  bool key_above = false;     ///< the key stands over the panel, where it hides no curve
+  bool equal_scales = false;        ///< a metre as long across as up; in space always: of x and y
+  bool logarithmic = false;         ///< both axes
+  std::optional<double> y_least{};  ///< where the y axis begins; by the curves unless given
+  bool key_above = false;           ///< the key stands over the panel, where it hides no curve
 };
 
 /// A drawing's width and height in pixels, a hundred an inch.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -16,11 +17,13 @@ namespace {
 FigureSize size_of(const Figure& figure) {
   constexpr int kPanelWidthPx = 620;
   constexpr int kPanelHeightPx = 480;
+  constexpr int kStackWidthPx = 900;
+  constexpr int kStackedHeightPx = 230;
   const auto count = static_cast<int>(figure.panels.size());
   return figure.size.value_or(
-      figure.stacked
-          ? FigureSize{.width_px = kPanelWidthPx, .height_px = kPanelHeightPx / 2 * count}
-          : FigureSize{.width_px = kPanelWidthPx * count, .height_px = kPanelHeightPx});
+      figure.stacked ? FigureSize{.width_px = kStackWidthPx,
+                                  .height_px = kStackedHeightPx * count + kPanelHeightPx / 6}
+                     : FigureSize{.width_px = kPanelWidthPx * count, .height_px = kPanelHeightPx});
 }
 
 std::string gnuplot_string(std::string_view text) {
@@ -54,7 +57,7 @@ void put_rows(std::string& script, const Curve& curve, bool in_space) {
 std::string style_of(const Curve& curve) {
   switch (curve.style) {
     case CurveStyle::kLine:
-      return fmt::format("lines linewidth 1.5 dashtype {}", curve.dash + 1);
+      return fmt::format("lines linewidth {} dashtype {}", curve.line_width, curve.dash + 1);
     case CurveStyle::kPoints:
       return "points pointtype 7 pointsize 0.4";
     case CurveStyle::kBand:
@@ -72,27 +75,56 @@ std::string_view columns_of(const Curve& curve) {
   return curve.style == CurveStyle::kBand ? " using 1:2:3" : "";
 }
 
-void put_axes(std::string& script, const Panel& panel) {
-  fmt::format_to(std::back_inserter(script), "set title {}\nset xlabel {}\nset ylabel {}\n",
-                 gnuplot_string(panel.title), gnuplot_string(panel.x_label),
-                 gnuplot_string(panel.y_label));
-  script += panel.key_above ? "set key outside above right horizontal samplen 2.5\n"
-                            : "set key inside right top vertical samplen 4\n";
-  script += panel.logarithmic ? "set logscale xy\nset format '%g'\n" : "";
-  if (panel.z_label.empty()) {
-    script += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
-    return;
+/// 1, 2 or 5 times a power of ten, no more than `value`.
+double round_step(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double digit = value / power;
+  return power * (digit < 2 ? 1 : digit < 5 ? 2 : 5);
+}
+
+/// A box about paths in space, as deep as it is wide, whose floor is at the lowest tic.
+void put_box(std::string& script, const Panel& panel) {
+  double extent = 0;
+  for (const Curve& curve : panel.curves) {
+    for (const auto* values : {&curve.x, &curve.y}) {
+      for (const double value : *values) {
+        extent = std::isfinite(value) ? std::max(extent, std::abs(value)) : extent;
+      }
+    }
   }
-  // A box about the path, whose floor is at the lowest tic.
-  script += "set border 895\nset xyplane 0\nset grid xtics ytics ztics\nset view 62,35,1,1.1\n";
-  script += panel.equal_scales ? "set view equal xy\n" : "";
+  constexpr double kRoom = 1.1;
+  const double end = extent > 0 ? kRoom * extent : 1;
+  for (const char axis : {'x', 'y'}) {
+    fmt::format_to(std::back_inserter(script), "set {0}range [{1}:{2}]\nset {0}tics {3}\n", axis,
+                   -end, end, round_step(end / 2));
+  }
   fmt::format_to(std::back_inserter(script),
+                 "set border 895\nset xyplane 0\nset view 62,35,1,1.15\n"
                  "set xlabel offset 0,-0.5\nset ylabel offset 1,-0.5\n"
-                 "set zlabel {} rotate parallel offset -1.5,0\n",
+                 "set zlabel {} rotate parallel offset -0.5,0\n",
                  gnuplot_string(panel.z_label));
 }
 
-void put_panel(std::string& script, const Panel& panel) {
+void put_axes(std::string& script, const Panel& panel, bool stacked) {
+  fmt::format_to(std::back_inserter(script), "set title {}\nset xlabel {}\nset ylabel {}\n",
+                 gnuplot_string(panel.title), gnuplot_string(panel.x_label),
+                 gnuplot_string(panel.y_label));
+  const std::string_view above = stacked ? "at graph 1,1.03 right bottom horizontal samplen 2.5"
+                                         : "outside above right horizontal samplen 2.5";
+  fmt::format_to(std::back_inserter(script), "set key {}\n",
+                 panel.key_above ? above : "inside right top vertical samplen 4");
+  script += panel.logarithmic ? "set logscale xy\nset format '%g'\n" : "";
+  if (panel.y_least) {
+    fmt::format_to(std::back_inserter(script), "set yrange [{}:]\n", *panel.y_least);
+  }
+  if (!panel.z_label.empty()) {
+    put_box(script, panel);
+    return;
+  }
+  script += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
+}
+
+void put_panel(std::string& script, const Panel& panel, bool stacked) {
   // Colours that the colour-blind tell apart (Okabe and Ito), grey and black.
   constexpr std::array<std::string_view, kBlack + 1> kColours = {
       "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999", "#000000"};
@@ -102,7 +134,7 @@ void put_panel(std::string& script, const Panel& panel) {
     put_rows(script, panel.curves[i], in_space);
     script += "END\n";
   }
-  put_axes(script, panel);
+  put_axes(script, panel, stacked);
   script += in_space ? "splot " : "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
@@ -112,6 +144,29 @@ void put_panel(std::string& script, const Panel& panel) {
                    curve.name.empty() ? "notitle" : "title " + gnuplot_string(curve.name));
   }
   script += '\n';
+}
+
+/// Panels one above the other: axes of one length, labels at one distance, however wide the numbers
+/// are.
+void put_stack(std::string& script, const Figure& figure) {
+  const auto [width_px, height_px] = size_of(figure);
+  const auto across = [width = width_px](double pixels) { return pixels / width; };
+  const auto up = [height = height_px](double pixels) { return pixels / height; };
+  fmt::format_to(std::back_inserter(script),
+                 "set multiplot layout {},1 title {} margins {},{},{},{} spacing 0,{}\n",
+                 figure.panels.size(), gnuplot_string(figure.title), across(96), 1 - across(25),
+                 up(52), 1 - up(figure.title.empty() ? 30 : 52), up(48));
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    Panel panel = figure.panels[i];
+    fmt::format_to(std::back_inserter(script),
+                   "set label 1 {} at screen {}, graph 0.5 center rotate\n",
+                   gnuplot_string(panel.y_label), across(20));
+    panel.y_label.clear();
+    if (i + 1 < figure.panels.size()) {
+      panel.x_label.clear();
+    }
+    put_panel(script, panel, true);
+  }
 }
 
 }  // namespace
@@ -137,15 +192,15 @@ std::string script_of(const Figure& figure, const std::string& terminal,
                       const std::string& output) {
   std::string script = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
                                    terminal, gnuplot_string(output));
-  script += "set grid linecolor rgb '#dddddd'\nset tics nomirror\n";
-  const std::size_t count = figure.panels.size();
-  fmt::format_to(std::back_inserter(script), "set multiplot layout {},{} title {}\n",
-                 figure.stacked ? count : 1, figure.stacked ? 1 : count,
-                 gnuplot_string(figure.title));
-  // One above the other, axes begin at one place however wide their numbers are.
-  script += figure.stacked ? "set lmargin 10\nset rmargin 3\n" : "";
-  for (const Panel& panel : figure.panels) {
-    put_panel(script, panel);
+  script += "set grid xtics ytics ztics linetype 1 linecolor rgb '#dddddd'\nset tics nomirror\n";
+  if (figure.stacked) {
+    put_stack(script, figure);
+  } else {
+    fmt::format_to(std::back_inserter(script), "set multiplot layout 1,{} title {}\n",
+                   figure.panels.size(), gnuplot_string(figure.title));
+    for (const Panel& panel : figure.panels) {
+      put_panel(script, panel, false);
+    }
   }
   return script + "unset multiplot\n";
 }

@@ -36,7 +36,8 @@ Panel phase_panel(const std::vector<EstimateSeries>& inputs, const AngleAndRate&
          .x = along(path, series.*columns.angle_rad, kDegree),
          .y = along(path, rates, kDegree),
          .colour = i,
-         .dash = i});
+         .dash = i,
+         .line_width = kThin});
   }
   return panel;
 }

@@ -43,13 +43,10 @@ tl::expected<Figure, Error> space_plot(const std::vector<EstimateSeries>& inputs
                      .x = along(path, inputs[i].x_m, kMillimetre),
                      .y = along(path, inputs[i].y_m, kMillimetre),
                      .z = along(path, inputs[i].z_m, kMillimetre),
-                     .colour = i});
+                     .colour = i,
+                     .line_width = kThin});
   }
-  Panel panel{.x_label = "x / mm",
-              .y_label = "y / mm",
-              .z_label = "z / mm",
-              .equal_scales = true,
-              .key_above = true};
+  Panel panel{.x_label = "x / mm", .y_label = "y / mm", .z_label = "z / mm", .key_above = true};
   const double below_mm = floor_mm(paths);
   for (const Curve& path : paths) {
     Curve shadow = path;

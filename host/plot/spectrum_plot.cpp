@@ -53,6 +53,12 @@ tl::expected<Panel, Error> spectrum_panel(const std::vector<EstimateSeries>& inp
           fmt::format("{}: found {} rows in succession without a dropout, expected 8 or more",
                       series.name, span.size()));
     }
+    // What is weaker is no figure of a pendulum but of numbers' last digits.
+    constexpr double kWeakest = 2e-6;
+    const double least = kWeakest * spectrum.amplitude[spectrum.peak()] / kDegree;
+    if (least > 0 && (!panel.y_least || least < *panel.y_least)) {
+      panel.y_least = least;
+    }
     panel.curves.push_back(spectrum_curve(spectrum, key_name(inputs, i)));
     panel.curves.back().colour = i;
     panel.curves.back().dash = i;

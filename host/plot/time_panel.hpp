@@ -10,6 +10,9 @@
 
 namespace penduline {
 
+/// Of lines that lie close together: paths of many swings.
+inline constexpr double kThin = 0.7;
+
 /// What is drawn against time.
 struct TimeColumn {
   std::string name;  ///< of the quantity

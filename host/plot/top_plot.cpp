@@ -88,7 +88,8 @@ tl::expected<Figure, Error> top_plot(const std::vector<EstimateSeries>& inputs,
     panel.curves.push_back({.name = inputs.size() == 1 ? "path" : inputs[i].name,
                             .x = along(path, inputs[i].x_m, kMillimetre),
                             .y = along(path, inputs[i].y_m, kMillimetre),
-                            .colour = i});
+                            .colour = i,
+                            .line_width = kThin});
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     put_ellipses(panel, inputs, i, settings);

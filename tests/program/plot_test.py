@@ -20,7 +20,7 @@ KINDS = {
     "spectrum": ("Amplitude spectrum", "frequency / Hz", "amplitude of theta1 / deg",
                  "amplitude of theta2 / deg"),
     "residuals": ("Experiment less the fitted simulation", "t / s",
-                  "theta1, experiment - simulation / deg", "theta2, experiment - simulation / deg"),
+                  "residual of theta1 / deg", "residual of theta2 / deg"),
 }
 MAGIC = {"svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG\r\n"}
 RIG = RIGS / "paper.toml"
@@ -28,7 +28,7 @@ RIG = RIGS / "paper.toml"
 
 class PlotTest(ProgramTest):
     def swing(self):
-        return self.simulate("--theta-deg", 10, "--psi", 2, "--gap-noise", "50e-6")[0]
+        return self.simulate("--theta-deg", 10, "--psi", 2, "--gap-noise", "10e-6")[0]
 
     def estimates(self, recording, estimator="ekf", name="estimates.csv"):
         path = self.folder / name
@@ -130,7 +130,7 @@ class PlotTest(ProgramTest):
                            "--size", "500x400")
         self.assertEqual(len(svg_curves.curve(svg, 2, 0)[0]), 41)
         self.assertIn('width="500" height="400"', svg)
-        self.assertIn("Größe &amp; 'Art' &lt;2&gt;", svg)
+        self.assertIn("Größe &amp; 'Art' &lt;2>", svg_curves.texts(svg))
         self.assertNotIn("Angles", svg_curves.texts(svg))
 
     def test_angles_alone_become_positions_by_the_rigs_length(self):

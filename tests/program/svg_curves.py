@@ -8,7 +8,7 @@ PANEL_NAMES = "abcdefg"
 
 def texts(svg):
     """All that stands written in the figure."""
-    return [re.sub(r"<[^>]*>", "", text).strip()
+    return [re.sub(r"</?tspan[^>]*>", "", text).strip()
             for text in re.findall(r"<text>(.*?)</text>", svg, re.DOTALL)]
 
 

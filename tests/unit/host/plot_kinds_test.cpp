@@ -25,7 +25,8 @@ EstimateSeries ellipse_swing() {
     const double theta2 = std::asin(-share * to_x);
     const double theta1 = std::asin(share * to_y / std::cos(theta2));
     series.push_back({.t_us = 50'000 * static_cast<std::int64_t>(i),
-                      .attitude = {{.angles = {.theta1_rad = theta1, .theta2_rad = theta2}}},
+                      .attitude = {{.angles = {.theta1_rad = theta1, .theta2_rad = theta2},
+                                    .mass_m = Vector3<double>::Zero()}},
                       .omega_rad_s = {{.first = 0.5, .second = 0.25}},
                       .sigma_rad = {{.first = 0.002, .second = 0.004}}});
   }
@@ -173,8 +174,8 @@ TEST_CASE("Residuals are measured less simulated, with their RMS") {
   EstimateSeries series = ellipse_swing();
   const Figure figure = plot("residuals", {series});
   REQUIRE(figure.panels.size() == 2);
-  CHECK(figure.panels[0].y_label == "theta1, experiment - simulation / deg");
-  CHECK(figure.panels[0].curves[0].name.starts_with("RMS 0."));
+  CHECK(figure.panels[0].y_label == "residual of theta1 / deg");
+  CHECK(figure.panels[0].curves[0].name.starts_with("experiment less simulation, RMS 0."));
   CHECK(figure.panels[0].curves[0].style == CurveStyle::kPoints);
 }
 
