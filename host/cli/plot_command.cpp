@@ -91,8 +91,10 @@ bool tell_doubtful(const std::vector<EstimateSeries>& inputs) {
     std::size_t empty = 0;
     std::size_t flagged = 0;
     for (std::size_t row = 0; row < series.size(); ++row) {
+      const auto flags = static_cast<Flags>(series.flags[row]);
       if (!series.answers(row)) {
-        ++empty;
+        const bool waits = flags != 0 && (flags & ~flag::kOrdinary) == 0;  // a filter fills
+        empty += waits ? 0U : 1U;
       } else if (!series.trusted(row)) {
         ++flagged;
       }

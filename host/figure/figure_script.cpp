@@ -96,12 +96,12 @@ void put_box(std::string& script, const Panel& panel) {
   const double end = extent > 0 ? kRoom * extent : 1;
   for (const char axis : {'x', 'y'}) {
     fmt::format_to(std::back_inserter(script), "set {0}range [{1}:{2}]\nset {0}tics {3}\n", axis,
-                   -end, end, round_step(end / 2));
+                   -end, end, round_step(end / 1.5));
   }
   fmt::format_to(std::back_inserter(script),
                  "set border 895\nset xyplane 0\nset view 62,35,1,1.15\n"
                  "set xlabel offset 0,-0.5\nset ylabel offset 1,-0.5\n"
-                 "set zlabel {} rotate parallel offset -0.5,0\n",
+                 "set zlabel {} rotate parallel offset -1.5,0\n",
                  gnuplot_string(panel.z_label));
 }
 
@@ -110,7 +110,7 @@ void put_axes(std::string& script, const Panel& panel, bool stacked) {
                  gnuplot_string(panel.title), gnuplot_string(panel.x_label),
                  gnuplot_string(panel.y_label));
   const std::string_view above = stacked ? "at graph 1,1.03 right bottom horizontal samplen 2.5"
-                                         : "outside above right horizontal samplen 2.5";
+                                         : "outside above right maxcols 1 samplen 2.5";
   fmt::format_to(std::back_inserter(script), "set key {}\n",
                  panel.key_above ? above : "inside right top vertical samplen 4");
   script += panel.logarithmic ? "set logscale xy\nset format '%g'\n" : "";
@@ -156,6 +156,7 @@ void put_stack(std::string& script, const Figure& figure) {
                  "set multiplot layout {},1 title {} margins {},{},{},{} spacing 0,{}\n",
                  figure.panels.size(), gnuplot_string(figure.title), across(96), 1 - across(25),
                  up(52), 1 - up(figure.title.empty() ? 30 : 52), up(48));
+  script += "set autoscale xfix\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     Panel panel = figure.panels[i];
     fmt::format_to(std::back_inserter(script),

@@ -21,8 +21,7 @@ void put_column(PenPath& path, const std::vector<double>& y, std::size_t begin, 
   const auto [least, most] = std::minmax_element(first, last);
   std::array rows{first, least, most, last - 1};
   std::ranges::sort(rows);
-  const auto repeated = std::ranges::unique(rows);
-  std::for_each(rows.begin(), repeated.begin(),
+  std::for_each(rows.begin(), std::unique(rows.begin(), rows.end()),
                 [&](auto row) { path.emplace_back(row - y.begin()); });
 }
 

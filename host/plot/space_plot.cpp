@@ -25,7 +25,7 @@ double floor_mm(const std::vector<Curve>& paths) {
     }
   }
   constexpr double kShare = 0.3;  // of the paths' height
-  constexpr double kLeastMm = 1;
+  constexpr double kLeastMm = 0.05;
   return least - std::max(kShare * (most - least), kLeastMm);
 }
 

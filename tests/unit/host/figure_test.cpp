@@ -57,6 +57,58 @@ TEST_CASE("Names and labels stand in a figure as they were given") {
   CHECK(svg.find("theta1_rad") != std::string::npos);
 }
 
+TEST_CASE("Panels one above the other name their x axis once, at one width") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("f.svg");
+  Figure figure = two_panels();
+  figure.stacked = true;
+  figure.title = "Both";
+  figure.size = FigureSize{.width_px = 700, .height_px = 500};
+  REQUIRE(draw(figure, path));
+  const std::string svg = contents(path);
+  const auto count = [&](const std::string& text) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  CHECK(count("<text>t / s</text>") == 1);
+  CHECK(count("<text>angle / deg</text>") == 2);
+  CHECK(count("<text>Both</text>") == 1);
+  CHECK(svg.find("width=\"700\" height=\"500\"") != std::string::npos);
+}
+
+TEST_CASE("A band is an area, broken where its curve is") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("f.svg");
+  const Curve band{.style = CurveStyle::kBand,
+                   .x = {0, 1, 2, NAN, 4, 5},
+                   .y = {1, 2, 1, NAN, 2, 1},
+                   .sigma_y = {0.1, 0.2, 0.1, NAN, 0.1, 0.1}};
+  REQUIRE(draw({.panels = {{.curves = {band}}}}, path));
+  const std::string svg = contents(path);
+  const std::size_t first = svg.find("<polygon");
+  REQUIRE(first != std::string::npos);
+  const std::size_t second = svg.find("<polygon", first + 1);
+  REQUIRE(second != std::string::npos);
+  CHECK(svg.find("<polygon", second + 1) == std::string::npos);
+}
+
+TEST_CASE("A panel in space names all three axes") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("f.svg");
+  const Curve curve{.name = "path", .x = {0, 1, NAN, 3}, .y = {0, 2, 1, 6}, .z = {5, 6, 7, 8}};
+  REQUIRE(draw(
+      {.panels =
+           {{.x_label = "x / mm", .y_label = "y / mm", .z_label = "z / mm", .curves = {curve}}}},
+      path));
+  const std::string svg = contents(path);
+  for (const char* label : {"x / mm", "y / mm", "z / mm"}) {
+    CHECK(svg.find(label) != std::string::npos);
+  }
+}
+
 TEST_CASE("A figure of another ending is refused") {
   const auto drawn = draw(two_panels(), "figure.jpg");
   REQUIRE_FALSE(drawn);

@@ -112,11 +112,11 @@ TEST_CASE("From above, the fitted ellipse lies on the path") {
   CHECK(panel.equal_scales);
   REQUIRE(panel.curves.size() == 3);
   CHECK(panel.curves[1].name == "first swing: 10.00 x 4.00 deg");
-  // l sin(tilt): 52.094 and 20.927 mm.
-  for (const std::size_t curve : {0U, 1U}) {
-    CHECK(largest(panel.curves[curve].y) == Approx(52.094).epsilon(1e-3));
-    CHECK(largest(panel.curves[curve].x) == Approx(20.927).epsilon(1e-3));
-  }
+  // l sin(tilt); the samples of the path miss its width's end by up to 1 %.
+  CHECK(largest(panel.curves[0].y) == Approx(52.094).epsilon(1e-3));
+  CHECK(largest(panel.curves[0].x) == Approx(20.927).epsilon(0.01));
+  CHECK(largest(panel.curves[1].y) == Approx(52.094).epsilon(1e-3));
+  CHECK(largest(panel.curves[1].x) == Approx(20.927).epsilon(1e-3));
 }
 
 TEST_CASE("From above, a path without a swing has no ellipse, and that is said") {
