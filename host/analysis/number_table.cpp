@@ -54,7 +54,7 @@ tl::expected<bool, Error> NumberTable::next_line() {
 }
 
 tl::expected<bool, Error> NumberTable::next() {
-  const auto more = next_line();
+  auto more = next_line();
   if (!more || !*more) {
     return more;
   }

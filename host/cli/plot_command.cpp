@@ -196,8 +196,7 @@ void add_plot_command(CLI::App& program, ExitStatus& status) {
       ->add_option("FILE", options->paths,
                    "Recordings (with --rig) or tables of angles, as 'replay' prints them; up to\n"
                    "six are drawn over each other")
-      ->required()
-      ->expected(1, static_cast<int>(kMostFiles));
+      ->required();
   add_figure_options(*command, *options);
   command
       ->add_option("--rig", options->rig_path,
@@ -218,7 +217,13 @@ void add_plot_command(CLI::App& program, ExitStatus& status) {
       "What each figure shows: docs/figures.md. It needs gnuplot.\n\n"
       "  penduline plot rec.csv --rig rig.toml --what angles -o angles.svg\n"
       "  penduline plot gn.csv ekf.csv --what top --title 'Two estimators' -o path.pdf");
-  command->final_callback([options, &status] { status = plot(*options); });
+  command->final_callback([options, &status] {
+    if (options->paths.size() > kMostFiles) {
+      throw CLI::ValidationError(
+          "FILE", fmt::format("found {}, expected {} or less", options->paths.size(), kMostFiles));
+    }
+    status = plot(*options);
+  });
 }
 
 }  // namespace penduline

@@ -174,6 +174,8 @@ class PlotTest(ProgramTest):
                 (("--what", "angles", "-o", "f.svg", "--align"), "is for --estimator paper")):
             with self.subTest(options=options):
                 self.assertIn(words, run("plot", table, *options, status=2).stderr)
+        self.assertIn("found 7, expected 6 or less",
+                      run("plot", *7 * [table], "--what", "angles", "-o", "f.svg", status=2).stderr)
 
     def test_an_input_is_never_overwritten(self):
         table = self.write("table.svg", "t_s,theta_rad\n0,0\n1,1\n")
