@@ -62,11 +62,11 @@ void EstimateSeries::hang_mass(double length_m) {
 }
 
 void EstimateSeries::push_back(const Estimate<double>& estimate) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   for (const EstimateColumn& known : estimate_columns()) {
     const auto* const column = std::ranges::find(kSeriesColumns, known.name, &SeriesColumn::name);
     if (column != kSeriesColumns.end()) {
-      (this->*column->values).push_back(known.value(estimate).value_or(kUnknown));
+      (this->*column->values).push_back(known.value(estimate).value_or(kNoNumber));
     }
   }
 }
