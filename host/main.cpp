@@ -28,6 +28,7 @@ int run_program(int argc, char** argv) {
   add_analyze_command(program, status);
   add_calibrate_command(program, status);
   add_devices_command(program, status);
+  add_doctor_command(program, status);
   add_plot_command(program, status);
   add_replay_command(program, status);
   add_run_command(program, status);

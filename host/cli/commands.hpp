@@ -13,6 +13,7 @@ namespace penduline {
 void add_analyze_command(CLI::App& program, ExitStatus& status);
 void add_calibrate_command(CLI::App& program, ExitStatus& status);
 void add_devices_command(CLI::App& program, ExitStatus& status);
+void add_doctor_command(CLI::App& program, ExitStatus& status);
 void add_plot_command(CLI::App& program, ExitStatus& status);
 void add_replay_command(CLI::App& program, ExitStatus& status);
 void add_run_command(CLI::App& program, ExitStatus& status);

@@ -28,6 +28,7 @@ class Summary {
   void count_dropped(const std::string& output, std::uint64_t rows);
 
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
   /// In words, that the samples come at another rate than the nominal one, which the filters are
   /// made for; none where they are within 10 %.

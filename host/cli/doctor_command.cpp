@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penduline doctor`: looks a set-up over and says what to do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/estimation_options.hpp"
+#include "host/cli/log.hpp"
+#include "host/doctor/board_checks.hpp"
+#include "host/doctor/signal_checks.hpp"
+#include "host/doctor/survey.hpp"
+#include "host/session/stop_signal.hpp"
+#include "host/source/board_source.hpp"
+#include "host/source/port_finder.hpp"
+#include "host/source/source_uri.hpp"
+
+namespace penduline {
+namespace {
+
+struct DoctorOptions {
+  std::string uri = "auto";
+  std::string rig_path;
+  double seconds = 5;
+  bool strict = false;
+};
+
+std::string_view word_of(Health health) {
+  switch (health) {
+    case Health::kGood:
+      return "good";
+    case Health::kDoubtful:
+      return "doubtful";
+    case Health::kBad:
+      break;
+  }
+  return "bad";
+}
+
+/// Tells findings as they come, and how bad the worst is.
+class Report {
+ public:
+  void tell(const Findings& findings) {
+    for (const Finding& finding : findings) {
+      fmt::print("{:<9} {}: {}\n", word_of(finding.health), finding.subject, finding.found);
+      if (!finding.advice.empty()) {
+        fmt::print("          -> {}\n", finding.advice);
+      }
+      worst_ = std::max(worst_, finding.health);
+      ++count_;
+      not_good_ += finding.health == Health::kGood ? 0 : 1;
+    }
+    std::fflush(stdout);
+  }
+
+  [[nodiscard]] Health worst() const { return worst_; }
+
+  void finish() const {
+    fmt::print("{}\n", worst_ == Health::kGood
+                           ? fmt::format("all {} checks are good", count_)
+                           : fmt::format("{} of {} checks want something done", not_good_, count_));
+  }
+
+ private:
+  Health worst_ = Health::kGood;
+  int count_ = 0;
+  int not_good_ = 0;
+};
+
+tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
+                                                         const StopSignal& stop) {
+  if (uri.kind == SourceUri::Kind::kRecording) {
+    return open_recording(uri.path);
+  }
+  return BoardSource::open(port_opener(uri), {.once = true},
+                           {.say = [](const std::string& news) { log_info(news); },
+                            .stop_requested = [&stop] { return stop.requested(); }});
+}
+
+ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
+  std::optional<RigFile> rig;
+  if (!options.rig_path.empty()) {
+    auto read = load_rig(options.rig_path);
+    if (!read) {
+      return log_failure(read.error());
+    }
+    rig = std::move(*read);
+  }
+  const StopSignal stop;
+  Report report;
+  if (uri.is_board()) {
+    report.tell(check_board(uri, stop));
+  }
+  if (report.worst() != Health::kBad && !stop.requested()) {
+    auto source = open_source(uri, stop);
+    if (!source) {
+      return log_failure(source.error());
+    }
+    const auto seen = survey(**source, options.seconds, stop);
+    if (!seen) {
+      return log_failure(seen.error());
+    }
+    report.tell(check_stream(*seen));
+    report.tell(check_sensors(*seen, rig));
+  }
+  report.finish();
+  if (report.worst() == Health::kBad) {
+    return ExitStatus::kFailed;
+  }
+  return options.strict && report.worst() == Health::kDoubtful ? ExitStatus::kDoubtful
+                                                               : ExitStatus::kDone;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& program, ExitStatus& status) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* command =
+      program.add_subcommand("doctor", "Look a set-up over and say what to do about it");
+  command
+      ->add_option("SOURCE", options->uri,
+                   "auto, serial:PATH[?baud=N] or usb:VID:PID[:SERIAL] (a board), or file:PATH "
+                   "(a recording)")
+      ->capture_default_str();
+  command->add_option("--rig", options->rig_path, "Rig file: looks at gaps, noise and zero, too")
+      ->type_name("FILE");
+  command->add_option("--seconds", options->seconds, "How long to listen")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_flag("--strict", options->strict, "End with status 3 where anything is doubtful");
+  command->footer(
+      "Best with a pendulum that hangs still. Each line says whether what was looked at is good,\n"
+      "doubtful (it measures, but could do better) or bad (it does not measure), and what to do.\n"
+      "Ends with status 1 where anything is bad.\n\n"
+      "  penduline doctor\n"
+      "  penduline doctor serial:/dev/ttyACM0 --rig rig.toml");
+  command->final_callback([options, &status] {
+    const auto uri = parse_uri(options->uri);
+    if (!uri) {
+      throw CLI::ValidationError("SOURCE", uri.error().message);
+    }
+    if (uri->kind == SourceUri::Kind::kSimulation) {
+      throw CLI::ValidationError("SOURCE", "found sim:, expected a board or a recording");
+    }
+    status = examine(*options, *uri);
+  });
+}
+
+}  // namespace penduline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a board is there, may be talked to, and what it says of itself.
+#pragma once
+
+#include "host/doctor/finding.hpp"
+#include "host/session/stop_signal.hpp"
+#include "host/source/source_uri.hpp"
+
+namespace penduline {
+
+/// Looks for the board of a URI (`serial:`, `usb:` or `auto`), opens it and asks who it is and how
+/// it fares. Ends with the first finding that is bad.
+[[nodiscard]] Findings check_board(const SourceUri& uri, const StopSignal& stop);
+
+}  // namespace penduline

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bounds, and the words for what is beyond them.
+#include "host/doctor/signal_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "common/disc_plane.hpp"
+#include "host/calibration/signal_log.hpp"
+#include "host/units.hpp"
+
+namespace penduline {
+namespace {
+
+/// Shares of the ADC's range.
+constexpr double kBrightAmbient = 0.2;  // leaves the signal less room than is good
+constexpr double kGlaringAmbient = 0.6;
+constexpr double kUnsteadyAmbient = 0.02;
+constexpr double kWeakSignal = 0.03;  // less than 100 mV of 3.3 V
+constexpr double kNoSignal = 0.003;
+/// Of the samples.
+constexpr double kMostSaturated = 0.01;
+/// A disc at rest that far from where the rig has it, seen as an angle.
+constexpr double kMostZeroDeg = 0.3;
+/// Motion of the gap, seen as an angle, up to which the pendulum hangs still.
+constexpr double kMostMotionDeg = 0.1;
+/// Noise beside what the rig says.
+constexpr double kMostNoiseRatio = 2;
+constexpr double kPercent = 100;
+constexpr double kMilli = 1e-3;
+
+std::string percent(double share) {
+  return fmt::format("{:.{}f} %", kPercent * share, share < 0.1 ? 1 : 0);
+}
+
+/// One sensor's light, in shares of the ADC's range and volts.
+class SensorChecks {
+ public:
+  SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig)
+      : reference_v_(survey.acquisition.reference_v),
+        sensor_(sensor),
+        rig_(rig),
+        name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
+        signal_(mean_signal(survey.sensors[sensor].signal_v)),
+        ambient_(mean_signal(survey.sensors[sensor].ambient_v)) {}
+
+  Findings findings() {
+    check_ambient();
+    if (check_signal()) {
+      check_noise();
+      if (rig_) {
+        check_gap();
+      }
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Health health, std::string_view subject, std::string found, std::string advice = "") {
+    findings_.push_back({.health = health,
+                         .subject = fmt::format("sensor {} {}", name_, subject),
+                         .found = std::move(found),
+                         .advice = std::move(advice)});
+  }
+
+  void check_ambient() {
+    const double share = ambient_.volts / reference_v_;
+    const std::string found =
+        fmt::format("{:.3f} V in the dark phase, {} of the range", ambient_.volts, percent(share));
+    const std::string shade =
+        "shade the sensor from lamps and the sun; a black tube around it helps most";
+    if (ambient_.count == 0) {
+      add(Health::kBad, "ambient light", "no reading at all", "check that the sensor is connected");
+    } else if (ambient_.volts == 0 && ambient_.scatter_v == 0) {
+      add(Health::kDoubtful, "ambient light", "not measured: the dark phase always reads 0",
+          "switch the emitters (--emitter switched), or the room's light counts as signal");
+    } else if (share > kGlaringAmbient) {
+      add(Health::kBad, "ambient light", found, shade);
+    } else if (share > kBrightAmbient) {
+      add(Health::kDoubtful, "ambient light", found, shade);
+    } else if (ambient_.scatter_v / reference_v_ > kUnsteadyAmbient) {
+      add(Health::kDoubtful, "ambient light",
+          fmt::format("{}, but unsteady by {}", found, percent(ambient_.scatter_v / reference_v_)),
+          "a lamp flickers, or somebody casts a shadow: " + shade);
+    } else {
+      add(Health::kGood, "ambient light", found);
+    }
+  }
+
+  /// Whether there is one.
+  bool check_signal() {
+    const double share = signal_.volts / reference_v_;
+    const std::string found =
+        fmt::format("{:.3f} V, {} of the range", signal_.volts, percent(share));
+    if (signal_.count == 0) {
+      add(Health::kBad, "signal", "every sample is saturated",
+          "take a smaller load resistor or less emitter current, or a larger gap "
+          "(docs/hardware.md)");
+      return false;
+    }
+    if (share < kNoSignal) {
+      add(Health::kBad, "signal", found + ": no light comes back",
+          "look through a phone's camera whether the emitter glows; check its wire and polarity, "
+          "and that the disc is in front of the sensor");
+      return false;
+    }
+    if (share < kWeakSignal) {
+      add(Health::kDoubtful, "signal", found + ": weak",
+          "bring the disc nearer, take a larger load resistor, or a brighter disc");
+    } else {
+      add(Health::kGood, "signal", found);
+    }
+    return true;
+  }
+
+  /// What is new from sample to sample; with a pendulum that moves, its steps are part of it.
+  [[nodiscard]] double noise_v() const {
+    return std::sqrt(std::max(0.0, signal_.scatter_v * signal_.scatter_v -
+                                       signal_.slow_scatter_v * signal_.slow_scatter_v));
+  }
+
+  /// Whether most of the scatter is no noise.
+  [[nodiscard]] bool moves() const { return signal_.slow_scatter_v > noise_v(); }
+
+  void check_noise() {
+    if (moves()) {
+      add(Health::kGood, "noise", "not looked at, for the pendulum moves");
+      return;
+    }
+    const double noise = noise_v();
+    std::string found = fmt::format("{:.2f} mV RMS from sample to sample", noise / kMilli);
+    if (!rig_) {
+      add(Health::kGood, "noise", std::move(found));
+      return;
+    }
+    const Response<double>& response = rig_->rig.responses[sensor_];
+    const double slope_m_per_v = std::abs(response.slope_m_per_v(signal_.volts));
+    const double gap_m = noise * slope_m_per_v;
+    const double told_m =
+        std::hypot(rig_->rig.noise[sensor_].gap_m, rig_->rig.noise[sensor_].volts * slope_m_per_v);
+    found += fmt::format(", {:.1f} um of gap", gap_m / kMicrometre);
+    if (!std::isfinite(gap_m)) {
+      add(Health::kDoubtful, "noise", fmt::format("{:.2f} mV RMS", noise / kMilli));
+    } else if (gap_m > kMostNoiseRatio * told_m) {
+      add(Health::kDoubtful, "noise",
+          fmt::format("{}, where the rig says {:.1f}", found, told_m / kMicrometre),
+          "let it hang still and run 'penduline calibrate rest', which tells the rig its noise; "
+          "then look for loose wires and a noisy supply");
+    } else {
+      add(Health::kGood, "noise", std::move(found));
+    }
+  }
+
+  void check_gap() {
+    const Response<double>& response = rig_->rig.responses[sensor_];
+    const GapReading<double> reading = response.read(signal_.volts);
+    if (!reading.gap_m || reading.flags != 0) {
+      const bool folded = reading.gap_m && (reading.flags & flag::kFolded) != 0;
+      add(Health::kBad, "gap",
+          fmt::format("{:.3f} V is {} of the rig's response", signal_.volts,
+                      folded ? "at or beyond the peak" : "outside the range"),
+          folded ? "move the sensor away from the disc: nearer than the peak two gaps give one "
+                   "signal"
+                 : "is this the rig file of this pendulum? If so, move the sensor to the gap it "
+                   "says, or calibrate anew ('penduline calibrate swing')");
+      return;
+    }
+    const double slope_m_per_v = std::abs(response.slope_m_per_v(signal_.volts));
+    const double arm_m = rig_->rig.layout.position_m[sensor_].head<2>().norm();
+    const double motion_deg =
+        moves() ? signal_.slow_scatter_v * slope_m_per_v / arm_m / kDegree : 0;
+    const double rest_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig_->rig.layout, sensor_);
+    const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
+    const std::string found = fmt::format("{:.3f} mm on average, {:.3f} at rest by the rig",
+                                          *reading.gap_m / kMillimetre, rest_m / kMillimetre);
+    if (motion_deg > kMostMotionDeg) {
+      add(Health::kGood, "gap",
+          fmt::format("{}; the pendulum moves ({:.1f} deg RMS), so its zero is not checked", found,
+                      motion_deg));
+    } else if (std::abs(zero_deg) > kMostZeroDeg) {
+      add(Health::kDoubtful, "gap",
+          fmt::format("{}: its zero is off by {:.2f} deg", found, zero_deg),
+          "if it hangs free and still, zero it: 'penduline calibrate rest'");
+    } else {
+      add(Health::kGood, "gap",
+          fmt::format("{}: zero within {:.2f} deg", found, std::abs(zero_deg)));
+    }
+  }
+
+  double reference_v_;
+  std::size_t sensor_;
+  const std::optional<RigFile>& rig_;
+  std::string name_;
+  MeanSignal signal_;
+  MeanSignal ambient_;
+  Findings findings_;
+};
+
+Finding check_rate(const Survey& survey) {
+  if (!survey.rate_complaint.empty()) {
+    return {.health = Health::kDoubtful,
+            .subject = "rate",
+            .found = survey.rate_complaint,
+            .advice = "a long cable, a hub or a busy computer may hold it up; try another port"};
+  }
+  if (survey.lost + survey.late > 0) {
+    return {.health = Health::kDoubtful,
+            .subject = "rate",
+            .found = fmt::format("of {} samples {} lost, {} late", survey.samples + survey.lost,
+                                 survey.lost, survey.late),
+            .advice = "try another port or cable, or a lower --rate"};
+  }
+  return {.subject = "rate",
+          .found = fmt::format("{} samples at {} Hz, none lost, none late", survey.samples,
+                               survey.acquisition.rate_hz)};
+}
+
+Finding check_saturation(const Survey& survey) {
+  const double share = static_cast<double>(survey.saturated) / static_cast<double>(survey.samples);
+  return {.health = survey.saturated == 0    ? Health::kGood
+                    : share < kMostSaturated ? Health::kDoubtful
+                                             : Health::kBad,
+          .subject = "saturation",
+          .found = survey.saturated == 0
+                       ? "none"
+                       : fmt::format("{} of {} samples reach the end of the ADC's range",
+                                     survey.saturated, survey.samples),
+          .advice = survey.saturated == 0
+                        ? ""
+                        : "take a smaller load resistor or less emitter current "
+                          "(docs/hardware.md), a larger gap, or shade the sensor"};
+}
+
+}  // namespace
+
+Findings check_stream(const Survey& survey) {
+  if (survey.samples == 0) {
+    return {{.health = Health::kBad,
+             .subject = "rate",
+             .found = "no sample came",
+             .advice = "unplug the board and plug it in again; if that does not help, flash it"}};
+  }
+  Findings findings = {check_rate(survey), check_saturation(survey)};
+  for (const std::string& complaint : survey.complaints) {
+    findings.push_back({.health = Health::kDoubtful,
+                        .subject = "stream",
+                        .found = complaint,
+                        .advice = "try another cable or port"});
+  }
+  return findings;
+}
+
+Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig) {
+  Findings findings;
+  if (survey.samples == 0) {
+    return findings;
+  }
+  const std::size_t count = survey.acquisition.sensor_count;
+  const bool fits = rig && rig->rig.layout.count == count;
+  if (rig && !fits) {
+    findings.push_back({.health = Health::kBad,
+                        .subject = "rig",
+                        .found = fmt::format("the rig has {} sensors, the samples have {}",
+                                             rig->rig.layout.count, count),
+                        .advice = "give the rig file of this pendulum"});
+  }
+  const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (Finding& finding : SensorChecks(survey, i, fitting).findings()) {
+      findings.push_back(std::move(finding));
+    }
+  }
+  return findings;
+}
+
+}  // namespace penduline

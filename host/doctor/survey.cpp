@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading and sorting.
+#include "host/doctor/survey.hpp"
+
+#include "host/session/progress_bar.hpp"
+#include "host/session/summary.hpp"
+
+namespace penduline {
+namespace {
+
+void take(Survey& survey, const Sample& sample) {
+  const double volts_per_count =
+      survey.acquisition.reference_v / survey.acquisition.full_scale_counts;
+  const bool saturated = (sample.flags & flag::kSaturated) != 0;
+  survey.saturated += saturated ? 1U : 0U;
+  survey.late += (sample.flags & flag::kLate) != 0 ? 1U : 0U;
+  for (std::size_t i = 0; i < survey.acquisition.sensor_count; ++i) {
+    if (!sample.has_reading(i)) {
+      continue;
+    }
+    SensorSurvey& sensor = survey.sensors[i];
+    sensor.ambient_v.push_back(sample.readings[i].off * volts_per_count);
+    if (!saturated) {
+      sensor.signal_v.push_back(signal_v(sample.readings[i], survey.acquisition));
+    }
+  }
+}
+
+}  // namespace
+
+tl::expected<Survey, Error> survey(Source& source, double seconds, const StopSignal& stop) {
+  Survey result{.acquisition = source.header().acquisition};
+  Summary summary(result.acquisition);
+  ProgressBar progress(false);
+  const auto length_us = static_cast<std::int64_t>(seconds * 1e6);
+  std::int64_t begin_us = 0;
+  Sample sample;
+  while (!stop.requested()) {
+    const auto read = source.read(sample);
+    if (!read) {
+      return tl::unexpected(read.error());
+    }
+    if (*read == ReadResult::kEnded) {
+      break;
+    }
+    if (*read == ReadResult::kNothingYet) {
+      continue;
+    }
+    if (summary.samples() == 0) {
+      begin_us = sample.t_us;
+    }
+    summary.count(sample);
+    take(result, sample);
+    const std::int64_t passed_us = sample.t_us - begin_us;
+    if (passed_us >= length_us) {
+      break;
+    }
+    if (progress.due()) {
+      progress.draw(static_cast<double>(passed_us) / static_cast<double>(length_us));
+    }
+  }
+  result.samples = summary.samples();
+  result.lost = summary.lost();
+  result.rate_complaint = summary.rate_complaint().value_or("");
+  result.complaints = source.complaints();
+  return result;
+}
+
+}  // namespace penduline

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+# `penduline doctor`: what it says of a good set-up, and of the faults that people have.
+import os
+import re
+import unittest
+
+from program import RIGS, ProgramTest, run
+from sim_board import WITHOUT_PTS, SimBoard
+
+RIG = RIGS / "tcrt5000.toml"
+STILL = ["--held", "--theta-deg", "0"]
+
+
+def verdicts(done):
+    """What it says of each subject: its health, what it found, its advice."""
+    found = {}
+    for health, subject, text, advice in re.findall(
+            r"^(good|doubtful|bad) +([^:]+): (.*)\n(?: +-> (.*)\n)?", done.stdout, re.MULTILINE):
+        found[subject] = (health, text, advice)
+    return found
+
+
+class DoctorTest(ProgramTest):
+    @unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+    def test_a_good_board_with_a_still_pendulum_is_good_throughout(self):
+        board = SimBoard(self.folder / "port", *STILL)
+        self.addCleanup(board.close)
+        done = run("doctor", f"serial:{board.port}", "--rig", RIGS / "paper.toml", "--seconds", "3", "--strict")
+        found = verdicts(done)
+        self.assertEqual({health for health, _, _ in found.values()}, {"good"}, done.stdout)
+        self.assertEqual(list(found)[:5], ["board", "firmware", "health", "rate", "saturation"])
+        self.assertEqual(found["rate"][1], "61 samples at 20 Hz, none lost, none late")
+        self.assertIn("zero within 0.0", found["sensor Sx gap"][1])
+        self.assertEqual(done.stdout.splitlines()[-1], f"all {len(found)} checks are good")
+
+    @unittest.skipIf(os.path.exists("/dev/ttyACM0"), "a board may be plugged in")
+    def test_without_a_board_it_says_what_it_looked_for_and_what_to_do(self):
+        health, text, advice = verdicts(run("doctor", status=1))["board"]
+        self.assertEqual(health, "bad")
+        self.assertIn("looked for a serial port of the USB device 1209:0001", text)
+        self.assertIn("a cable that carries data", advice)
+
+    def test_a_port_that_is_not_there(self):
+        health, text, _ = verdicts(run("doctor", "serial:/dev/nowhere", status=1))["board"]
+        self.assertEqual((health, text), ("bad", "/dev/nowhere: no such port"))
+
+    @unittest.skipIf(WITHOUT_PTS or os.geteuid() == 0, "root may open every port")
+    def test_a_port_without_permission(self):
+        board = SimBoard(self.folder / "port", *STILL)
+        self.addCleanup(board.close)
+        os.chmod(board.port, 0)
+        health, _, advice = verdicts(run("doctor", f"serial:{board.port}", status=1))["permission"]
+        self.assertEqual(health, "bad")
+        self.assertIn("dialout", advice)
+
+    def examine(self, *simulation, rig=RIG, status=0):
+        """A simulated recording looked over."""
+        recording, _ = self.simulate("--seconds", "10", *simulation, rig=rig.name)
+        return verdicts(run("doctor", f"file:{recording}", "--rig", rig, status=status))
+
+    def test_a_recording_with_much_light_is_told_to_be_shaded(self):
+        health, text, advice = self.examine(*STILL, "--ambient", "1.2")["sensor Sx ambient light"]
+        self.assertEqual(health, "doubtful")
+        self.assertIn("1.200 V in the dark phase, 36 % of the range", text)
+        self.assertIn("shade the sensor", advice)
+
+    def test_saturation_is_bad(self):
+        found = self.examine(*STILL, "--ambient", "3.25", status=1)
+        self.assertEqual(found["saturation"][0], "bad")
+
+    def test_a_pendulum_that_is_not_at_rest_where_the_rig_has_it(self):
+        health, text, advice = self.examine("--held", "--theta-deg", "1", "--phi-deg", "45")["sensor Sx gap"]
+        self.assertEqual(health, "doubtful")
+        self.assertRegex(text, r"its zero is off by -?0\.\d\d deg")
+        self.assertIn("penduline calibrate rest", advice)
+
+    def test_a_pendulum_that_swings_is_not_held_against_its_zero(self):
+        found = self.examine()
+        self.assertIn("the pendulum moves", found["sensor Sx gap"][1])
+        self.assertEqual(found["sensor Sx noise"][1], "not looked at, for the pendulum moves")
+
+    def test_more_noise_than_the_rig_says(self):
+        health, text, advice = self.examine(*STILL, "--gap-noise", "0.0005")["sensor Sx noise"]
+        self.assertEqual(health, "doubtful")
+        self.assertIn("where the rig says", text)
+        self.assertIn("calibrate rest", advice)
+
+    def test_doubts_end_with_3_where_strict_asks(self):
+        recording, _ = self.simulate("--seconds", "10", *STILL, "--ambient", "1.2")
+        run("doctor", f"file:{recording}")
+        run("doctor", f"file:{recording}", "--strict", status=3)
+
+    def test_a_simulation_is_no_set_up(self):
+        self.assertIn("found sim:, expected a board or a recording", run("doctor", "sim:", status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `penduline doctor` makes of samples.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "host/doctor/signal_checks.hpp"
+#include "tests/unit/host/rig_text.hpp"
+
+namespace penduline::test {
+namespace {
+
+/// One sensor's five seconds at 20 Hz: steady but for a noise of `noise_v` RMS.
+SensorSurvey steady(double signal_v, double ambient_v, double noise_v = 1e-3) {
+  SensorSurvey sensor;
+  for (int i = 0; i < 100; ++i) {
+    // A sequence that does not repeat, of mean 0 and RMS 1.
+    const double unit = std::sqrt(12.0) * (std::fmod(i * 0.6180339887 + 0.25, 1.0) - 0.5);
+    sensor.signal_v.push_back(signal_v + noise_v * unit);
+    sensor.ambient_v.push_back(ambient_v + 1e-4 * unit);
+  }
+  return sensor;
+}
+
+Survey good_survey() {
+  Survey survey{.acquisition = {.rate_hz = 20}, .samples = 100};
+  survey.sensors[0] = steady(1.5, 0.1);
+  survey.sensors[1] = steady(1.5, 0.1);
+  return survey;
+}
+
+Finding about(const Findings& findings, const std::string& subject) {
+  const auto found = std::ranges::find(findings, subject, &Finding::subject);
+  REQUIRE(found != findings.end());
+  return *found;
+}
+
+TEST_CASE("A good stream is good, in numbers", "[doctor]") {
+  const Findings findings = check_stream(good_survey());
+  CHECK(about(findings, "rate").health == Health::kGood);
+  CHECK(about(findings, "rate").found == "100 samples at 20 Hz, none lost, none late");
+  CHECK(about(findings, "saturation").found == "none");
+}
+
+TEST_CASE("A stream without samples is bad, and its sensors are not judged", "[doctor]") {
+  const Survey none{.acquisition = {.rate_hz = 20}};
+  CHECK(about(check_stream(none), "rate").health == Health::kBad);
+  CHECK(check_sensors(none, std::nullopt).empty());
+}
+
+TEST_CASE("Lost and late samples, a wrong rate and complaints are doubtful", "[doctor]") {
+  Survey survey = good_survey();
+  survey.lost = 3;
+  survey.late = 2;
+  survey.complaints = {"port: 4 damaged frames"};
+  CHECK(about(check_stream(survey), "rate").found == "of 103 samples 3 lost, 2 late");
+  CHECK(about(check_stream(survey), "rate").health == Health::kDoubtful);
+  CHECK(about(check_stream(survey), "stream").found == "port: 4 damaged frames");
+  survey.rate_complaint = "the samples come at 18 Hz";
+  CHECK(about(check_stream(survey), "rate").found == "the samples come at 18 Hz");
+}
+
+TEST_CASE("Some saturated samples are doubtful, more than 1 % are bad", "[doctor]") {
+  Survey survey = good_survey();
+  survey.samples = 1000;
+  survey.saturated = 9;
+  CHECK(about(check_stream(survey), "saturation").health == Health::kDoubtful);
+  survey.saturated = 10;
+  CHECK(about(check_stream(survey), "saturation").health == Health::kBad);
+}
+
+TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]") {
+  const auto [ambient_v, health] = GENERATE(std::pair{0.6, Health::kGood},  // 18 % of 3.3 V
+                                            std::pair{0.7, Health::kDoubtful},
+                                            std::pair{1.9, Health::kDoubtful},
+                                            std::pair{2.0, Health::kBad});
+  Survey survey = good_survey();
+  survey.sensors[1] = steady(1.0, ambient_v);
+  const Findings findings = check_sensors(survey, std::nullopt);
+  CHECK(about(findings, "sensor 1 ambient light").health == Health::kGood);
+  CHECK(about(findings, "sensor 2 ambient light").health == health);
+}
+
+TEST_CASE("Ambient light that is never measured is doubtful", "[doctor]") {
+  Survey survey = good_survey();
+  std::ranges::fill(survey.sensors[0].ambient_v, 0.0);
+  CHECK(about(check_sensors(survey, std::nullopt), "sensor 1 ambient light").found ==
+        "not measured: the dark phase always reads 0");
+}
+
+TEST_CASE("No signal is bad, a weak one doubtful, and says what to look at", "[doctor]") {
+  Survey survey = good_survey();
+  survey.sensors[0] = steady(0.005, 0.1);
+  survey.sensors[1] = steady(0.05, 0.1);
+  const Findings findings = check_sensors(survey, std::nullopt);
+  CHECK(about(findings, "sensor 1 signal").health == Health::kBad);
+  CHECK(about(findings, "sensor 1 signal").advice.find("phone's camera") != std::string::npos);
+  CHECK(about(findings, "sensor 2 signal").health == Health::kDoubtful);
+}
+
+TEST_CASE("A sensor of which every sample is saturated has no signal", "[doctor]") {
+  Survey survey = good_survey();
+  survey.sensors[0].signal_v.clear();
+  CHECK(about(check_sensors(survey, std::nullopt), "sensor 1 signal").found ==
+        "every sample is saturated");
+}
+
+TEST_CASE("Noise is told in volts; of a pendulum that moves it is not", "[doctor]") {
+  Survey survey = good_survey();
+  for (std::size_t i = 0; i < survey.sensors[1].signal_v.size(); ++i) {
+    survey.sensors[1].signal_v[i] += 0.1 * std::sin(0.4 * static_cast<double>(i));
+  }
+  const Findings findings = check_sensors(survey, std::nullopt);
+  CHECK(about(findings, "sensor 1 noise").found == "1.00 mV RMS from sample to sample");
+  CHECK(about(findings, "sensor 2 noise").found == "not looked at, for the pendulum moves");
+}
+
+TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "[doctor]") {
+  const RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  const Response<double>& response = rig.rig.responses[0];
+  const double rest_v =
+      response.volts(DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, 0));
+  const double arm_m = rig.rig.layout.position_m[0].head<2>().norm();
+  const double v_per_deg = arm_m * 0.01745329 / response.slope_m_per_v(rest_v);
+  Survey survey = good_survey();
+  const auto of_first = [&](double signal_v, double noise_v) {
+    survey.sensors[0] = steady(signal_v, 0.1, noise_v);
+    survey.sensors[1] = survey.sensors[0];
+    return check_sensors(survey, rig);
+  };
+  const std::string gap = "sensor " + rig.sensor_names[0] + " gap";
+  const std::string noise = "sensor " + rig.sensor_names[0] + " noise";
+  const double told_v = std::hypot(rig.rig.noise[0].volts,
+                                   rig.rig.noise[0].gap_m / response.slope_m_per_v(rest_v));
+
+  CHECK(about(of_first(rest_v, told_v), gap).health == Health::kGood);
+  CHECK(about(of_first(rest_v, told_v), noise).health == Health::kGood);
+  CHECK(about(of_first(rest_v + 0.5 * v_per_deg, told_v), gap).health == Health::kDoubtful);
+  CHECK(about(of_first(rest_v, 3 * told_v), noise).health == Health::kDoubtful);
+}
+
+TEST_CASE("A signal that the rig's response does not have is bad", "[doctor]") {
+  const RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  Survey survey = good_survey();
+  survey.sensors[0] = steady(3.29, 0.001);
+  CHECK(about(check_sensors(survey, rig), "sensor " + rig.sensor_names[0] + " gap").health ==
+        Health::kBad);
+}
+
+TEST_CASE("A rig of another number of sensors is bad, and the light is judged all the same",
+          "[doctor]") {
+  RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  Survey survey = good_survey();
+  survey.acquisition.sensor_count = 3;
+  survey.sensors[2] = steady(1.5, 0.1);
+  const Findings findings = check_sensors(survey, rig);
+  CHECK(about(findings, "rig").found == "the rig has 2 sensors, the samples have 3");
+  CHECK(about(findings, "sensor 3 signal").health == Health::kGood);
+}
+
+}  // namespace
+}  // namespace penduline::test
