@@ -6,13 +6,12 @@ BUILD_PACKAGES=(
   nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libexpected-dev
   libusb-1.0-0-dev libudev-dev libgpiod-dev libmosquitto-dev libsystemd-dev libnlopt-cxx-dev pkgconf
   catch2 librapidcheck-dev libumockdev-dev umockdev python3)
+# What the live page is bundled with. A Node.js from elsewhere comes with its own npm and does not go together with
+# Debian's.
+command -v npm >/dev/null || BUILD_PACKAGES+=(nodejs npm)
 
 # What the boards' firmware is built with.
 CROSS_PACKAGES=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
-# The same and what the Pico's emulator runs in.
-PICO_PACKAGES=("${CROSS_PACKAGES[@]}")
-# A Node.js from elsewhere comes with its own npm and does not go together with Debian's.
-command -v npm >/dev/null || PICO_PACKAGES+=(nodejs npm)
 
 # What the tests on a real kernel are made of (tests/kernel).
 KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev systemd make xz-utils libelf1)
