@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The live page: says in words what the program sends.
-import uPlot from "uplot";
+// The same page beside a running program and, with a recording inside, alone.
+import { LivePage } from './live_page.js';
+import { RecordedPage } from './recorded_page.js';
 
-const events = new EventSource("live");
-events.addEventListener("state", (event) => {
-  document.getElementById("state").textContent = `${JSON.parse(event.data).samples} samples; uPlot ${typeof uPlot}.`;
-});
+const recording = document.getElementById('recording');
+document.documentElement.classList.add(recording ? 'recorded' : 'live');
+if (recording) {
+  new RecordedPage(JSON.parse(recording.textContent));
+} else {
+  new LivePage();
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each picture in one sentence, for those who do not see it and those who want the number.
+import { clock, fixed } from './words.js';
+
+export function anglesWords(series, [from, to]) {
+  const span_s = to > from ? series.columns.t[to - 1] - series.columns.t[from] : 0;
+  const parts = ['theta1', 'theta2'].map((column, i) => {
+    const [least, greatest] = series.extremes(column, from, to);
+    const name = i === 0 ? 'θ₁' : 'θ₂';
+    return Number.isNaN(least) ? `${name} has no answer` : `${name} went from ${fixed(least, 2)}° to ${fixed(greatest, 2)}°`;
+  });
+  return span_s > 0 ? `In ${clock(span_s)} min ${parts.join(', ')}.` : 'No angles yet.';
+}
+
+/// `ellipse` as `state` has it.
+export function aboveWords(ellipse) {
+  if (!ellipse) {
+    return 'No ellipse fitted yet.';
+  }
+  const { a_m, b_m, orientation_rad, sense } = ellipse;
+  const way = sense ? `, ${sense === 'left' ? 'anticlockwise' : 'clockwise'}` : '';
+  const degrees = ((((orientation_rad * 180) / Math.PI) % 180) + 180) % 180;
+  return `Ellipse of ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, its long axis ${fixed(degrees, 1)}° from x${way}.`;
+}
+
+export function gapsWords(series, row, sensors) {
+  return sensors.map((sensor, i) => {
+    const value = valueAt(series, `gap${i}`, row);
+    const [least, greatest] = (sensor.gap_range_m ?? [NaN, NaN]).map((end) => 1000 * end);
+    const range = Number.isFinite(least) ? ` of ${fixed(least, 1)} to ${fixed(greatest, 1)} mm` : '';
+    return `${sensor.name} ${fixed(value, 2)}${Number.isFinite(value) ? ' mm' : ''}${range}`;
+  }).join('; ') + '.';
+}
+
+export function signalsWords(series, row, sensors) {
+  return sensors.map((sensor, i) => {
+    const value = valueAt(series, `signal${i}`, row);
+    return `${sensor.name} ${fixed(value, 3)}${Number.isFinite(value) ? ' V' : ''}`;
+  }).join('; ') + '.';
+}
+
+export function spaceWords(series, row) {
+  const [x, y, z] = ['x', 'y', 'z'].map((column) => valueAt(series, column, row));
+  return Number.isFinite(x)
+    ? `The mass is at x ${fixed(x, 1)} mm, y ${fixed(y, 1)} mm, z ${fixed(z, 1)} mm from the pivot.`
+    : 'Where the mass is, nobody knows now.';
+}
+
+function valueAt(series, column, row) {
+  return row >= 0 ? series.columns[column][row] : NaN;
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page beside a running program: events in, pictures and words out.
+import { Actions } from './actions.js';
+import { followLive } from './live_events.js';
+import { Notes } from './notes.js';
+import { Painter } from './painter.js';
+import { showAngles, showSwing } from './readouts.js';
+import { Series } from './series.js';
+import { showSession } from './session_words.js';
+import { followTheme } from './theme.js';
+import { Views } from './views.js';
+import { write } from './words.js';
+
+const kShown_s = 30;
+// A minute at the most rows that the program sends.
+const kCapacity = 40000;
+const kReadout_ms = 200;
+
+export class LivePage {
+  constructor() {
+    this.painter = new Painter();
+    this.notes = new Notes();
+    this.actions = new Actions((sentence) => this.announce(sentence));
+    this.session = null;
+    this.state = null;
+    this.views = null;
+    this.fresh = true;
+    this.readout_ms = -Infinity;
+    followTheme(() => this.painter.changed());
+    followLive({
+      opened: () => this.opened(), lost: () => this.lost(), session: (session) => this.takeSession(session),
+      points: (points) => this.takePoints(points), state: (state) => this.takeState(state),
+      note: (note) => this.takeNote(note),
+    });
+  }
+
+  /// A connection begins with all that it needs: what was shown gives way to it.
+  opened() {
+    this.fresh = true;
+    this.notes.clear();
+  }
+
+  lost() {
+    this.connection('lost', 'The program does not answer; trying again');
+    this.actions.show(this.session, false);
+  }
+
+  takeSession(session) {
+    const before = this.session;
+    if (before && JSON.stringify(before.rig) !== JSON.stringify(session.rig)) {
+      location.reload();
+      return;
+    }
+    this.session = session;
+    if (!before) {
+      // Above 100 Hz, rows come in bins of 20 ms.
+      const largestStep_s = 3.5 / Math.min(session.rate_hz || 20, 50);
+      this.series = new Series(kCapacity, session.rig.sensors.length, largestStep_s);
+      this.views = new Views(session, this.series, this.painter);
+    }
+    write(document.getElementById('origin'), [session.rig.name, session.source].filter(Boolean).join(' · '));
+    write(document.getElementById('program'), session.program);
+    document.title = `${session.recording ? '● ' : ''}Penduline · ${session.source}`;
+    this.actions.show(session, true);
+    this.actions.showRecorded(this.state?.recorded_samples);
+  }
+
+  takePoints(points) {
+    if (this.fresh) {
+      this.series.clear();
+      this.fresh = false;
+    }
+    this.series.append(points);
+    const { scene } = this.views;
+    const latest_s = Number.isNaN(this.series.latest_s) ? 0 : this.series.latest_s;
+    scene.span = [latest_s - kShown_s, latest_s];
+    scene.moment_s = latest_s;
+    this.painter.changed();
+    const now_ms = performance.now();
+    if (now_ms - this.readout_ms > kReadout_ms) {
+      this.readout_ms = now_ms;
+      showAngles(this.series, this.series.end - 1);
+    }
+  }
+
+  takeState(state) {
+    const was = this.state?.connected;
+    this.state = state;
+    if (state.connected) {
+      this.connection('live', 'Live');
+    } else {
+      this.connection('waiting', 'The board is not there; waiting for it');
+    }
+    if (was === false && state.connected) {
+      this.announce('The board is back.');
+    }
+    this.views.scene.ellipse = state.ellipse;
+    showSwing(state);
+    showSession(this.session, state);
+    this.actions.showRecorded(state.recorded_samples);
+    this.views.caption();
+  }
+
+  takeNote(note) {
+    this.notes.add(note);
+    this.views.scene.marks_s = this.notes.marks_s;
+    this.painter.changed();
+  }
+
+  /// Shown at once, said aloud only when it changes.
+  connection(state, sentence) {
+    const element = document.getElementById('connection');
+    if (element.dataset.state !== state) {
+      element.dataset.state = state;
+      this.announce(`${sentence}.`);
+    }
+    write(element, sentence);
+  }
+
+  announce(sentence) {
+    write(document.getElementById('announcement'), sentence);
+  }
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state of the session in sentences.
+import { clock, count, fixed, write } from './words.js';
+
+/// Shows `session` and `state` as a list of terms and sentences; what did not change is left alone.
+export function showSession(session, state) {
+  const list = document.getElementById('session-words');
+  const rows = sentences(session, state);
+  while (list.children.length > rows.length) {
+    list.lastElementChild.remove();
+  }
+  rows.forEach(([term, sentence], i) => {
+    const row = list.children[i] ?? list.appendChild(emptyRow());
+    write(row.children[0], term);
+    write(row.children[1], sentence);
+  });
+}
+
+function emptyRow() {
+  const row = document.createElement('div');
+  row.append(document.createElement('dt'), document.createElement('dd'));
+  return row;
+}
+
+/// Pairs of a term and a sentence.
+export function sentences(session, state) {
+  const rows = [['Board', boardSentence(session, state)], ['Rate', rateSentence(session, state)],
+    ['Samples', samplesSentence(state)]];
+  const sensors = state.sensors ?? [];
+  rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
+  if (state.flags?.length) {
+    rows.push(['Flags', state.flags.map(({ name, count: times, latest_s }) =>
+      `${name.replaceAll('_', ' ')} ${times === 1 ? 'once' : `${count(times, 'time')}`}, last at ${clock(latest_s, 1)}`).join('; ') + '.']);
+  }
+  if (state.clock) {
+    rows.push(['Clock', capital(state.clock)]);
+  }
+  rows.push(['Rig', rigSentence(session)]);
+  return rows;
+}
+
+function boardSentence({ source, board, firmware, serial }, { connected }) {
+  if (connected === false) {
+    return `${board ?? 'The board'} is not there; waiting for it at ${source}.`;
+  }
+  const parts = [board ?? 'No board', firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `from ${source}`];
+  return `${parts.filter(Boolean).join(', ')}.`;
+}
+
+function rateSentence(session, state) {
+  const wanted = `${fixed(session.rate_hz, 0)} Hz`;
+  return Number.isFinite(state.rate_hz) ? `${fixed(state.rate_hz, 2)} Hz of ${wanted} asked for.` : `${wanted} asked for.`;
+}
+
+function samplesSentence({ samples, lost, dropouts, restarts }) {
+  return capital(`${count(samples, 'sample')}, ${count(lost, 'lost sample')}, ${count(dropouts, 'dropout')}, ` +
+    `${count(restarts, 'restart')} of the board.`);
+}
+
+function lightSentence({ rig }, sensors) {
+  const measured = sensors.map(({ ambient_v }, i) => [rig.sensors[i]?.name ?? i + 1, ambient_v])
+    .filter(([, ambient_v]) => Number.isFinite(ambient_v));
+  return measured.length
+    ? `Ambient light gives ${measured.map(([name, ambient_v]) => `${fixed(ambient_v, 3)} V at ${name}`).join(', ')}.`
+    : 'Ambient light is not measured.';
+}
+
+function signalSentence({ rig, reference_v }, sensors) {
+  const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
+  const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
+    ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
+  const of = Number.isFinite(reference_v) ? ` of ${fixed(reference_v, 2)} V` : '';
+  return troubles.length ? `${troubles.join('; ')}.` : `None is saturated or out of range${of}.`;
+}
+
+function rigSentence({ rig, estimator }) {
+  return `${rig.name ?? 'Unnamed'}, ${fixed(1000 * rig.length_m, 0)} mm long, ${count(rig.sensors.length, 'sensor')}; ` +
+    `angles by ${estimator}.`;
+}
+
+function capital(sentence) {
+  const text = sentence.charAt(0).toUpperCase() + sentence.slice(1);
+  return text.endsWith('.') ? text : `${text}.`;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A canvas in CSS pixels, sharp on every screen.
+
+/// Clears `canvas` and returns its context, scaled to CSS pixels, with `width` and `height` in them.
+export function cleanSheet(canvas) {
+  const ratio = devicePixelRatio;
+  const width = canvas.clientWidth;
+  const height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext('2d');
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  context.lineJoin = 'round';
+  context.lineCap = 'round';
+  return { context, width, height };
+}
+
+/// Strokes `points` ({x, y} or null for a break), oldest first, as a trail that fades to nothing.
+export function fadingTrail(context, points, colour, lineWidth) {
+  const kShades = 24;
+  context.lineWidth = lineWidth;
+  context.strokeStyle = colour;
+  for (let shade = 0; shade < kShades; ++shade) {
+    const from = Math.floor((shade * points.length) / kShades);
+    const to = Math.min(points.length - 1, Math.floor(((shade + 1) * points.length) / kShades));
+    context.globalAlpha = ((shade + 1) / kShades) ** 1.6;
+    context.beginPath();
+    let drawing = false;
+    for (let i = from; i <= to; ++i) {
+      const point = points[i];
+      if (point && drawing) {
+        context.lineTo(point.x, point.y);
+      } else if (point) {
+        context.moveTo(point.x, point.y);
+      }
+      drawing = point !== null;
+    }
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+}
