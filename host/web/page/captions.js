@@ -3,13 +3,13 @@
 import { clock, fixed } from './words.js';
 
 export function anglesWords(series, [from, to]) {
-  const span_s = to > from ? series.columns.t[to - 1] - series.columns.t[from] : 0;
+  const { t } = series.columns;
   const parts = ['theta1', 'theta2'].map((column, i) => {
     const [least, greatest] = series.extremes(column, from, to);
     const name = i === 0 ? 'θ₁' : 'θ₂';
     return Number.isNaN(least) ? `${name} has no answer` : `${name} went from ${fixed(least, 2)}° to ${fixed(greatest, 2)}°`;
   });
-  return span_s > 0 ? `In ${clock(span_s)} min ${parts.join(', ')}.` : 'No angles yet.';
+  return to > from ? `From ${clock(t[from])} to ${clock(t[to - 1])} ${parts.join(', ')}.` : 'No angles yet.';
 }
 
 /// `ellipse` as `state` has it.
@@ -27,15 +27,15 @@ export function gapsWords(series, row, sensors) {
   return sensors.map((sensor, i) => {
     const value = valueAt(series, `gap${i}`, row);
     const [least, greatest] = (sensor.gap_range_m ?? [NaN, NaN]).map((end) => 1000 * end);
-    const range = Number.isFinite(least) ? ` of ${fixed(least, 1)} to ${fixed(greatest, 1)} mm` : '';
-    return `${sensor.name} ${fixed(value, 2)}${Number.isFinite(value) ? ' mm' : ''}${range}`;
+    const range = Number.isFinite(least) ? `, valid from ${fixed(least, 1)} to ${fixed(greatest, 1)} mm` : '';
+    return `${sensor.name} ${Number.isFinite(value) ? `${fixed(value, 2)} mm` : 'has no answer'}${range}`;
   }).join('; ') + '.';
 }
 
 export function signalsWords(series, row, sensors) {
   return sensors.map((sensor, i) => {
     const value = valueAt(series, `signal${i}`, row);
-    return `${sensor.name} ${fixed(value, 3)}${Number.isFinite(value) ? ' V' : ''}`;
+    return `${sensor.name} ${Number.isFinite(value) ? `${fixed(value, 3)} V` : 'has no answer'}`;
   }).join('; ') + '.';
 }
 
@@ -43,7 +43,7 @@ export function spaceWords(series, row) {
   const [x, y, z] = ['x', 'y', 'z'].map((column) => valueAt(series, column, row));
   return Number.isFinite(x)
     ? `The mass is at x ${fixed(x, 1)} mm, y ${fixed(y, 1)} mm, z ${fixed(z, 1)} mm from the pivot.`
-    : 'Where the mass is, nobody knows now.';
+    : 'Where the mass is, is not known now.';
 }
 
 function valueAt(series, column, row) {

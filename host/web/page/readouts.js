@@ -4,12 +4,17 @@ import { fixed, write } from './words.js';
 
 const kDegrees = 180 / Math.PI;
 
+let widest = 5;
+
 /// The angles at `row` of `series` (-1: none).
 export function showAngles(series, row) {
   for (const i of [1, 2]) {
     const angle = row >= 0 ? series.columns[`theta${i}`][row] : NaN;
     const sigma = row >= 0 ? series.columns[`sigma${i}`][row] : NaN;
-    write(document.getElementById(`theta${i}`), Number.isNaN(angle) ? '–' : `${fixed(angle, 2, 6)}°`);
+    // As wide as the widest so far, so that the sign does not move the digits.
+    const text = fixed(angle, 2, widest);
+    widest = Math.max(widest, text.length);
+    write(document.getElementById(`theta${i}`), Number.isNaN(angle) ? text : `${text}°`);
     write(document.getElementById(`sigma${i}`), Number.isNaN(sigma) ? '' : `± ${fixed(sigma, 3)}°`);
   }
 }

@@ -29,8 +29,8 @@ export function sentences(session, state) {
   const sensors = state.sensors ?? [];
   rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
   if (state.flags?.length) {
-    rows.push(['Flags', state.flags.map(({ name, count: times, latest_s }) =>
-      `${name.replaceAll('_', ' ')} ${times === 1 ? 'once' : `${count(times, 'time')}`}, last at ${clock(latest_s, 1)}`).join('; ') + '.']);
+    rows.push(['Flags', capital(state.flags.map(({ name, count: times, latest_s }) =>
+      `${name.replaceAll('_', ' ')} ${times === 1 ? 'once' : `${count(times, 'time')}`}, last at ${clock(latest_s, 1)}`).join('; '))]);
   }
   if (state.clock) {
     rows.push(['Clock', capital(state.clock)]);
@@ -43,7 +43,10 @@ function boardSentence({ source, board, firmware, serial }, { connected }) {
   if (connected === false) {
     return `${board ?? 'The board'} is not there; waiting for it at ${source}.`;
   }
-  const parts = [board ?? 'No board', firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `from ${source}`];
+  if (!board) {
+    return `None; the samples come from ${source}.`;
+  }
+  const parts = [board, firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `from ${source}`];
   return `${parts.filter(Boolean).join(', ')}.`;
 }
 
@@ -69,8 +72,8 @@ function signalSentence({ rig, reference_v }, sensors) {
   const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
   const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
     ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
-  const of = Number.isFinite(reference_v) ? ` of ${fixed(reference_v, 2)} V` : '';
-  return troubles.length ? `${troubles.join('; ')}.` : `None is saturated or out of range${of}.`;
+  const reference = Number.isFinite(reference_v) ? `; full scale is ${fixed(reference_v, 2)} V` : '';
+  return `${troubles.length ? troubles.join('; ') : 'None is saturated or out of its range'}${reference}.`;
 }
 
 function rigSentence({ rig, estimator }) {

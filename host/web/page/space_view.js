@@ -50,7 +50,7 @@ export class SpaceView {
   draw(series, from, to, now) {
     const { context, width, height } = cleanSheet(this.canvas);
     const length = this.rig.length_m;
-    const project = this.camera.projection([0, 0, -0.52 * length], 0.68 * length, width, height);
+    const project = this.camera.projection([0, 0, -0.55 * length], 0.66 * length, width, height);
     const ground = -1.08 * length;
     const { x, y, z } = series.columns;
     const point = (row) => [x[row] / 1000, y[row] / 1000, z[row] / 1000];
@@ -67,14 +67,14 @@ export class SpaceView {
     const mass = answered(now) ? point(now) : [0, 0, -length];
     this.drawDisc(context, project, mass);
     this.drawRod(context, project, mass, answered(now));
-    fadingTrail(context, trail, theme.first, 2);
+    fadingTrail(context, trail, theme.ink, 2);
     this.drawMass(context, project, mass, answered(now), length);
   }
 
   drawGround(context, project, ground, length) {
     context.strokeStyle = theme.grid;
     context.lineWidth = 1;
-    for (const radius of [0.15, 0.3, 0.45]) {
+    for (const radius of [0.13, 0.26, 0.39]) {
       polygon(context, circle([0, 0, ground], [1, 0, 0], [0, 1, 0], radius * length).map(project));
       context.stroke();
     }
@@ -82,7 +82,7 @@ export class SpaceView {
     context.font = `12px ${theme.font}`;
     context.textAlign = 'center';
     context.textBaseline = 'middle';
-    for (const [name, end] of [['x', [0.45, 0]], ['y', [0, 0.45]]]) {
+    for (const [name, end] of [['x', [0.39, 0]], ['y', [0, 0.39]]]) {
       const [ex, ey] = end.map((value) => value * length);
       line(context, project([-ex, -ey, ground]), project([ex, ey, ground]));
       const label = project([1.13 * ex, 1.13 * ey, ground]);
@@ -136,7 +136,7 @@ export class SpaceView {
     const at = project(mass);
     const edge = project([mass[0], mass[1], mass[2] + 0.035 * length]);
     const radius = Math.max(5, Math.hypot(edge.x - at.x, edge.y - at.y));
-    context.fillStyle = answered ? theme.first : theme.grid;
+    context.fillStyle = answered ? theme.ink : theme.grid;
     dot(context, at, radius);
     context.strokeStyle = theme.paper;
     context.lineWidth = 1.5;

@@ -2,12 +2,14 @@
 // Curves of columns against time by uPlot: bands, valid ranges, marks, the value under the pointer.
 import uPlot from 'uplot';
 import { rowsToDraw } from './decimate.js';
-import { clock, fixed, tick } from './words.js';
+import { clock, fixed, ticks } from './words.js';
 import { curveColour, faded, theme } from './theme.js';
 
 const kAxisFont_px = 12;
-const kHeightOfXAxis_px = 46;
-const kWidthOfYAxis_px = 58;
+const kHeightOfXAxis_px = 26;
+const kHeightOfXLabel_px = 16;
+const kWidthOfYAxis_px = 46;
+const kTimeSteps_s = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400];
 
 /**
  * One plot in `section`.
@@ -46,10 +48,10 @@ export class TimePlot {
       ...this.size(), series, bands, legend: { show: false }, padding: [8, 14, 0, 0],
       scales: { x: { time: false, range: () => this.span }, y: { range: () => this.reach } },
       axes: [
-        { ...axis, grid: { ...grid, show: false }, size: kHeightOfXAxis_px, space: 70, label: 'time since the start',
-          labelSize: 18, labelFont: axis.font, labelGap: 0, values: (u, ticks) => ticks.map((t) => this.timeTick(t, ticks)) },
-        { ...axis, grid, size: kWidthOfYAxis_px, space: 34,
-          values: (u, ticks) => ticks.map((value) => `${tick(value)}${this.description.tickUnit}`) },
+        { ...axis, grid: { ...grid, show: false }, size: kHeightOfXAxis_px, gap: 4, space: 70, incrs: kTimeSteps_s, label: 'time since the start, min:s',
+          labelSize: kHeightOfXLabel_px, labelFont: axis.font, labelGap: 0, values: (u, moments) => this.timeTicks(moments) },
+        { ...axis, grid, size: kWidthOfYAxis_px, gap: 8, space: 40,
+          values: (u, values) => ticks(values).map((text) => `${text}${this.description.tickUnit}`) },
       ],
       cursor: { x: true, y: false, points: { show: false }, drag: { x: Boolean(this.description.onZoom), y: false, setScale: false } },
       hooks: {
@@ -68,9 +70,9 @@ export class TimePlot {
     return Array.from({ length: 1 + this.description.curves.length + 2 * bands }, () => []);
   }
 
-  timeTick(t_s, ticks) {
-    const step = ticks.length > 1 ? ticks[1] - ticks[0] : 1;
-    return clock(t_s, step >= 1 ? 0 : step >= 0.1 ? 1 : 2);
+  timeTicks(moments_s) {
+    const step_s = moments_s.length > 1 ? moments_s[1] - moments_s[0] : 1;
+    return moments_s.map((t_s) => clock(t_s, step_s >= 1 ? 0 : step_s >= 0.1 ? 1 : 2));
   }
 
   /// Draws `series` from `span[0]` to `span[1]` (s), with the moments `marks_s`.
@@ -100,7 +102,7 @@ export class TimePlot {
     this.host.dataset.axes = JSON.stringify({ t_s: this.span, value: this.reach });
   }
 
-  /// Behind the curves: what each sensor can measure, its ends as lines.
+  /// Behind the curves: what each sensor can measure, darker where several can, its ends as lines.
   shade(u) {
     const { left, top, width, height } = u.bbox;
     const { ctx } = u;
@@ -111,9 +113,9 @@ export class TimePlot {
       }
       const [low, high] = range.map((value) =>
         Math.min(top + height, Math.max(top, u.valToPos(value, 'y', true))));
-      ctx.fillStyle = faded(curveColour(i), 0.07);
+      ctx.fillStyle = faded(theme.quiet, 0.07);
       ctx.fillRect(left, high, width, low - high);
-      ctx.strokeStyle = faded(curveColour(i), 0.5);
+      ctx.strokeStyle = faded(curveColour(i), 0.7);
       ctx.lineWidth = devicePixelRatio;
       ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
       ctx.beginPath();

@@ -3,7 +3,7 @@
 import { roundStep, SteadyReach } from './reach.js';
 import { cleanSheet, fadingTrail } from './sheet.js';
 import { theme } from './theme.js';
-import { tick } from './words.js';
+import { ticks } from './words.js';
 
 const kMargin_px = 26;
 
@@ -26,17 +26,18 @@ export class TopView {
     const scale = (Math.min(width, height) / 2 - kMargin_px) / reach;
     const place = (x_mm, y_mm) => ({ x: width / 2 + x_mm * scale, y: height / 2 - y_mm * scale });
     this.drawRings(context, place, scale, reach);
-    if (ellipse) {
-      this.drawEllipse(context, place, scale, ellipse);
-    }
     const points = [];
     for (let row = from; row < to; ++row) {
       points.push(Number.isNaN(x[row]) ? null : place(x[row], y[row]));
     }
-    fadingTrail(context, points, theme.first, 2);
+    fadingTrail(context, points, theme.ink, 2);
+    this.drawLabels(context, place, reach);
+    if (ellipse) {
+      this.drawEllipse(context, place, scale, ellipse);
+    }
     if (now >= 0 && !Number.isNaN(x[now])) {
       const mass = place(x[now], y[now]);
-      context.fillStyle = theme.first;
+      context.fillStyle = theme.ink;
       context.strokeStyle = theme.paper;
       context.lineWidth = 2;
       context.beginPath();
@@ -50,40 +51,36 @@ export class TopView {
 
   drawRings(context, place, scale, reach) {
     const centre = place(0, 0);
-    const step = roundStep(reach);
     context.lineWidth = 1;
     context.strokeStyle = theme.grid;
-    context.fillStyle = theme.quiet;
-    context.font = `12px ${theme.font}`;
     context.beginPath();
     context.moveTo(centre.x - reach * scale, centre.y);
     context.lineTo(centre.x + reach * scale, centre.y);
     context.moveTo(centre.x, centre.y - reach * scale);
     context.lineTo(centre.x, centre.y + reach * scale);
-    for (let radius = step; radius <= reach * (1 + 1e-9); radius += step) {
+    for (const radius of ringRadii(reach)) {
       context.moveTo(centre.x + radius * scale, centre.y);
       context.arc(centre.x, centre.y, radius * scale, 0, 2 * Math.PI);
     }
     context.stroke();
-    context.textBaseline = 'middle';
-    context.textAlign = 'left';
-    context.fillText('x', centre.x + reach * scale + 8, centre.y);
-    context.textAlign = 'center';
-    context.fillText('y', centre.x, centre.y - reach * scale - 12);
-    context.textBaseline = 'bottom';
-    for (let radius = step; radius <= reach * (1 + 1e-9); radius += step) {
-      const along = radius * scale * Math.SQRT1_2;
-      this.label(context, `${tick(radius)} mm`, centre.x + along, centre.y + along + 7);
-    }
   }
 
-  /// Text on a patch of paper, so that lines do not cross it.
-  label(context, text, x, y) {
-    const width = context.measureText(text).width;
-    context.fillStyle = theme.paper;
-    context.fillRect(x - width / 2 - 3, y - 14, width + 6, 15);
+  /// Texts with a rim of paper, so that lines do not strike them out.
+  drawLabels(context, place, reach) {
+    const radii = ringRadii(reach);
+    const labels = ticks(radii).map((text, i) =>
+      [`${text} mm`, place(radii[i] * Math.SQRT1_2, -radii[i] * Math.SQRT1_2), 0, 0]);
+    labels.push(['x', place(reach, 0), 12, 0], ['y', place(0, reach), 0, -14]);
+    context.font = `12px ${theme.font}`;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.strokeStyle = theme.paper;
     context.fillStyle = theme.quiet;
-    context.fillText(text, x, y);
+    context.lineWidth = 5;
+    for (const [text, { x, y }, right, down] of labels) {
+      context.strokeText(text, x + right, y + down);
+      context.fillText(text, x + right, y + down);
+    }
   }
 
   drawEllipse(context, place, scale, { a_m, b_m, x_m, y_m, orientation_rad }) {
@@ -96,4 +93,9 @@ export class TopView {
     context.stroke();
     context.setLineDash([]);
   }
+}
+
+function ringRadii(reach) {
+  const step = roundStep(reach);
+  return Array.from({ length: Math.floor(reach / step + 1e-9) }, (_, i) => (i + 1) * step);
 }

@@ -47,7 +47,7 @@ export class Views {
   /// Spans the valid ranges, and what is measured beyond them.
   addSensorPlot(id, column, description, ranges) {
     const curves = this.sensors.map((sensor, i) => ({ column: `${column}${i}`, label: sensor.name }));
-    const wide = new SteadyReach(0.01);
+    const wide = new SteadyReach(0.01, 1.04);
     this.addPlot(id, {
       ...description, curves, ranges,
       reach: (series, from, to) => {

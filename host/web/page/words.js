@@ -13,12 +13,14 @@ export function fixed(value, decimals, width = 0) {
   return ((negative ? kMinus : '') + digits).padStart(width, kFigureSpace);
 }
 
-/// The shortest text of a tick's value, '−0.5'.
-export function tick(value) {
-  return String(Number(value.toPrecision(6))).replace('-', kMinus);
+/// Texts of an axis's ticks, all with the same decimals: "0.0", "0.5", "1.0".
+export function ticks(values) {
+  const shortest = values.map((value) => String(Number(value.toPrecision(6))));
+  const decimals = Math.max(0, ...shortest.map((text) => (text.split('.')[1] ?? '').length));
+  return values.map((value) => fixed(value, decimals));
 }
 
-/// Seconds as '1:05', '1:02:05', with `decimals` of the seconds.
+/// Seconds as "1:05", "1:02:05", with `decimals` of the seconds.
 export function clock(t_s, decimals = 0) {
   if (!Number.isFinite(t_s)) {
     return '–';
@@ -31,7 +33,7 @@ export function clock(t_s, decimals = 0) {
   return (t_s < 0 ? kMinus : '') + text;
 }
 
-/// '1 sample', '12\u202f345 samples', 'no samples'.
+/// "1 sample", "12\u202f345 samples", "no samples".
 export function count(number, one, many = `${one}s`) {
   if (number === 0) {
     return `no ${many}`;
