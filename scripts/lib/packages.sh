@@ -19,14 +19,22 @@ KERNEL_PACKAGES=(qemu-system-x86 busybox-static cpio kmod udev systemd make xz-u
 # What installation, package, manual and completion are tested with.
 PACKAGING_PACKAGES=(systemd dpkg-dev file mandoc bash-completion zsh fish)
 
-# install_emulator: the RP2040's, an npm package of the version that its lock file names.
-install_emulator() {
-  local lock=tests/firmware/package-lock.json installed=tests/firmware/node_modules/.package-lock.json
-  if [ "$installed" -nt "$lock" ]; then
+# What the live page is tested in; its screenshots have these fonts.
+BROWSER_PACKAGES=(chromium fonts-inter fonts-urw-base35)
+
+# install_by_npm FOLDER WHY: the npm packages of the versions that FOLDER's lock file names.
+install_by_npm() {
+  local folder=$1 why=$2
+  if [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ]; then
     return 0
   fi
-  echo "Installing rp2040js by npm: needed to run the firmware without a board."
-  npm --prefix tests/firmware ci --no-audit --no-fund --silent
+  echo "Installing what $folder/package-lock.json names by npm: needed $why."
+  npm --prefix "$folder" ci --no-audit --no-fund --silent
+}
+
+# install_emulator: the RP2040's.
+install_emulator() {
+  install_by_npm tests/firmware "to run the firmware without a board"
 }
 
 # install_missing WHY PACKAGE...

@@ -19,6 +19,12 @@ export class Camera {
     this.pitch = Math.min(kFarthestPitch, Math.max(-kFarthestPitch, this.pitch + pitch));
   }
 
+  /// Where the camera stands, seen from what it looks at: degrees anticlockwise from x, and degrees above the ground.
+  get direction() {
+    const degrees = 180 / Math.PI;
+    return [Math.atan2(-Math.cos(this.yaw), Math.sin(this.yaw)) * degrees, this.pitch * degrees];
+  }
+
   /// A function from a point [x, y, z] to { x, y } on a sheet of `width` by `height`, such that a ball of `radius`
   /// about `centre` fits.
   projection(centre, radius, width, height) {

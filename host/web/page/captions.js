@@ -7,7 +7,8 @@ export function anglesWords(series, [from, to]) {
   const parts = ['theta1', 'theta2'].map((column, i) => {
     const [least, greatest] = series.extremes(column, from, to);
     const name = i === 0 ? 'θ₁' : 'θ₂';
-    return Number.isNaN(least) ? `${name} has no answer` : `${name} went from ${fixed(least, 2)}° to ${fixed(greatest, 2)}°`;
+    return Number.isNaN(least) ? `${name} has no answer`
+      : `${name} went from ${fixed(least, 2)}° to ${fixed(greatest, 2)}°`;
   });
   return to > from ? `From ${clock(t[from])} to ${clock(t[to - 1])} ${parts.join(', ')}.` : 'No angles yet.';
 }
@@ -20,15 +21,15 @@ export function aboveWords(ellipse) {
   const { a_m, b_m, orientation_rad, sense } = ellipse;
   const way = sense ? `, ${sense === 'left' ? 'anticlockwise' : 'clockwise'}` : '';
   const degrees = ((((orientation_rad * 180) / Math.PI) % 180) + 180) % 180;
-  return `Ellipse of ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, its long axis ${fixed(degrees, 1)}° from x${way}.`;
+  return `Ellipse of ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, ` +
+    `its long axis ${fixed(degrees, 1)}° from x${way}.`;
 }
 
 export function gapsWords(series, row, sensors) {
   return sensors.map((sensor, i) => {
     const value = valueAt(series, `gap${i}`, row);
-    const [least, greatest] = (sensor.gap_range_m ?? [NaN, NaN]).map((end) => 1000 * end);
-    const range = Number.isFinite(least) ? `, valid from ${fixed(least, 1)} to ${fixed(greatest, 1)} mm` : '';
-    return `${sensor.name} ${Number.isFinite(value) ? `${fixed(value, 2)} mm` : 'has no answer'}${range}`;
+    const gap = Number.isFinite(value) ? `${fixed(value, 2)} mm` : 'has no answer';
+    return `${sensor.name} ${gap}${validWords(sensor.gap_range_m)}`;
   }).join('; ') + '.';
 }
 
@@ -39,13 +40,22 @@ export function signalsWords(series, row, sensors) {
   }).join('; ') + '.';
 }
 
-export function spaceWords(series, row) {
+/// `direction`: of the camera, degrees from x and above the ground.
+export function spaceWords(series, row, [from_x, above]) {
   const [x, y, z] = ['x', 'y', 'z'].map((column) => valueAt(series, column, row));
-  return Number.isFinite(x)
-    ? `The mass is at x ${fixed(x, 1)} mm, y ${fixed(y, 1)} mm, z ${fixed(z, 1)} mm from the pivot.`
-    : 'Where the mass is, is not known now.';
+  const place = Number.isFinite(x)
+    ? `The mass is at x ${fixed(x, 1)}, y ${fixed(y, 1)}, z ${fixed(z, 1)} mm from the pivot`
+    : 'Where the mass is, is not known now';
+  return `${place}; seen from ${fixed(from_x, 0)}° about z, ${fixed(above, 0)}° above.`;
 }
 
 function valueAt(series, column, row) {
   return row >= 0 ? series.columns[column][row] : NaN;
+}
+
+/// `range_m`: [least, greatest], null where there is no end.
+function validWords(range_m) {
+  const [least, greatest] = (range_m ?? [null, null]).map((end_m) => (end_m === null ? NaN : 1000 * end_m));
+  return (Number.isFinite(least) ? `, valid from ${fixed(least, 1)}` : '') +
+    (Number.isFinite(greatest) ? ` to ${fixed(greatest, 1)} mm` : Number.isFinite(least) ? ' mm' : '');
 }

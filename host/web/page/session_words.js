@@ -29,8 +29,7 @@ export function sentences(session, state) {
   const sensors = state.sensors ?? [];
   rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
   if (state.flags?.length) {
-    rows.push(['Flags', capital(state.flags.map(({ name, count: times, latest_s }) =>
-      `${name.replaceAll('_', ' ')} ${times === 1 ? 'once' : `${count(times, 'time')}`}, last at ${clock(latest_s, 1)}`).join('; '))]);
+    rows.push(['Flags', flagsSentence(state.flags)]);
   }
   if (state.clock) {
     rows.push(['Clock', capital(state.clock)]);
@@ -46,7 +45,7 @@ function boardSentence({ source, board, firmware, serial }, { connected }) {
   if (!board) {
     return `None; the samples come from ${source}.`;
   }
-  const parts = [board, firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `from ${source}`];
+  const parts = [board, firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `at ${source}`];
   return `${parts.filter(Boolean).join(', ')}.`;
 }
 
@@ -72,8 +71,15 @@ function signalSentence({ rig, reference_v }, sensors) {
   const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
   const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
     ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
-  const reference = Number.isFinite(reference_v) ? `; full scale is ${fixed(reference_v, 2)} V` : '';
-  return `${troubles.length ? troubles.join('; ') : 'None is saturated or out of its range'}${reference}.`;
+  const trouble = troubles.length ? troubles.join('; ') : 'None is saturated or out of its range';
+  return Number.isFinite(reference_v) ? `${trouble}; full scale is ${fixed(reference_v, 2)} V.` : `${trouble}.`;
+}
+
+function flagsSentence(flags) {
+  return capital(flags.map(({ name, count: times, latest_s }) => {
+    const often = times === 1 ? 'once' : count(times, 'time');
+    return `${name.replaceAll('_', ' ')} ${often}, last at ${clock(latest_s, 1)}`;
+  }).join('; '));
 }
 
 function rigSentence({ rig, estimator }) {

@@ -9,12 +9,15 @@ const kAxisFont_px = 12;
 const kHeightOfXAxis_px = 26;
 const kHeightOfXLabel_px = 16;
 const kWidthOfYAxis_px = 46;
-const kTimeSteps_s = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400];
+const kTimeSteps_s = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200,
+  14400];
 
 /**
  * One plot in `section`.
- * `description`: `curves`, each with `column`, `label` and, for a band, `sigma`'s column; `unit` and `decimals` of a value;
- * `ranges`: [least, greatest] or null for each curve, shaded; `reach(series, from, to)`: [least, greatest] of the y axis.
+ * `description`: `curves`, each with `column`, `label` and, for a band, `sigma`'s column; `unit` and `decimals` of a
+ * value, `tickUnit` of the axis; `ranges`: what is valid for each curve, [least, greatest], shaded;
+ * `reach(series, from, to)`: [least, greatest] of the y axis; where the pointer may do so, `onZoom(span)` and
+ * `onMoment(t_s)`.
  */
 export class TimePlot {
   constructor(section, description) {
@@ -48,12 +51,16 @@ export class TimePlot {
       ...this.size(), series, bands, legend: { show: false }, padding: [8, 14, 0, 0],
       scales: { x: { time: false, range: () => this.span }, y: { range: () => this.reach } },
       axes: [
-        { ...axis, grid: { ...grid, show: false }, size: kHeightOfXAxis_px, gap: 4, space: 70, incrs: kTimeSteps_s, label: 'time since the start, min:s',
-          labelSize: kHeightOfXLabel_px, labelFont: axis.font, labelGap: 0, values: (u, moments) => this.timeTicks(moments) },
+        { ...axis, grid: { show: false }, size: kHeightOfXAxis_px, gap: 4, space: 70, incrs: kTimeSteps_s,
+          label: 'time since the start, min:s', labelSize: kHeightOfXLabel_px, labelFont: axis.font, labelGap: 0,
+          values: (u, moments) => this.timeTicks(moments) },
         { ...axis, grid, size: kWidthOfYAxis_px, gap: 8, space: 40,
           values: (u, values) => ticks(values).map((text) => `${text}${this.description.tickUnit}`) },
       ],
-      cursor: { x: true, y: false, points: { show: false }, drag: { x: Boolean(this.description.onZoom), y: false, setScale: false } },
+      cursor: {
+        x: true, y: false, points: { show: false },
+        drag: { x: Boolean(this.description.onZoom), y: false, setScale: false },
+      },
       hooks: {
         drawClear: [(u) => this.shade(u)], draw: [(u) => this.drawMarks(u)],
         setCursor: [(u) => this.showKey(u.cursor.idx)], setSelect: [(u) => this.zoom(u)],
@@ -85,7 +92,8 @@ export class TimePlot {
     const { columns } = series;
     const from = Math.max(series.begin, series.rowAt(span[0]) - 1);
     const to = Math.min(series.end, series.rowAt(span[1]) + 1);
-    const rows = rowsToDraw(columns.t, curves.map((curve) => columns[curve.column]), from, to, size.width * devicePixelRatio);
+    const drawn = curves.map((curve) => columns[curve.column]);
+    const rows = rowsToDraw(columns.t, drawn, from, to, size.width * devicePixelRatio);
     const data = [Array.from(rows, (row) => columns.t[row])];
     for (const { column } of curves) {
       data.push(rows.map((row) => orNull(columns[column][row])));
@@ -108,9 +116,6 @@ export class TimePlot {
     const { ctx } = u;
     ctx.save();
     (this.description.ranges ?? []).forEach((range, i) => {
-      if (!range) {
-        return;
-      }
       const [low, high] = range.map((value) =>
         Math.min(top + height, Math.max(top, u.valToPos(value, 'y', true))));
       ctx.fillStyle = faded(theme.quiet, 0.07);

@@ -76,7 +76,7 @@ export class TopView {
     context.textBaseline = 'middle';
     context.strokeStyle = theme.paper;
     context.fillStyle = theme.quiet;
-    context.lineWidth = 5;
+    context.lineWidth = 3;
     for (const [text, { x, y }, right, down] of labels) {
       context.strokeText(text, x + right, y + down);
       context.fillText(text, x + right, y + down);

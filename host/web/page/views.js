@@ -27,21 +27,21 @@ export class Views {
     const steady = new SteadyReach(0.1);
     this.addPlot('angles', {
       ...choices, unit: '°', tickUnit: '°', decimals: 3,
-      curves: [{ column: 'theta1', sigma: 'sigma1', label: 'θ₁' }, { column: 'theta2', sigma: 'sigma2', label: 'θ₂' }],
+      curves: [1, 2].map((i) => ({ column: `theta${i}`, sigma: `sigma${i}`, label: `θ${'₁₂'[i - 1]}` })),
       reach: (series, from, to) => {
-        const ends = ['theta1', 'theta2'].flatMap((column) => series.extremes(column, from, to)).filter(Number.isFinite);
-        const reach = steady.fit(ends.length ? Math.max(...ends.map(Math.abs)) : NaN);
+        const measured = ['theta1', 'theta2'].flatMap((column) => series.extremes(column, from, to));
+        const known = measured.filter(Number.isFinite).map(Math.abs);
+        const reach = steady.fit(known.length ? Math.max(...known) : NaN);
         return [-reach, reach];
       },
     });
   }
 
   addSensors(choices) {
-    const inMillimetres = (range) => range?.map((value) => 1000 * value) ?? null;
     this.addSensorPlot('gaps', 'gap', { ...choices, unit: 'mm', tickUnit: '', decimals: 3 },
-      this.sensors.map((sensor) => inMillimetres(sensor.gap_range_m)));
+      this.sensors.map((sensor) => ends(sensor.gap_range_m, 1000)));
     this.addSensorPlot('signals', 'signal', { ...choices, unit: 'V', tickUnit: '', decimals: 4 },
-      this.sensors.map((sensor) => sensor.signal_range_v ?? null));
+      this.sensors.map((sensor) => ends(sensor.signal_range_v, 1)));
   }
 
   /// Spans the valid ranges, and what is measured beyond them.
@@ -51,8 +51,8 @@ export class Views {
     this.addPlot(id, {
       ...description, curves, ranges,
       reach: (series, from, to) => {
-        const ends = curves.flatMap((curve) => series.extremes(curve.column, from, to)).filter(Number.isFinite);
-        const all = [...ranges.flatMap((range) => range ?? []), ...ends];
+        const measured = curves.flatMap((curve) => series.extremes(curve.column, from, to));
+        const all = [...ranges.flat(), ...measured].filter(Number.isFinite);
         const low = Math.min(0, ...all);
         return [low < 0 ? 1.1 * low : 0, wide.fit(all.length ? Math.max(...all) : NaN)];
       },
@@ -74,8 +74,11 @@ export class Views {
       const [from, to, now] = this.trail();
       above.draw(this.series, from, to, now, this.scene.ellipse);
     });
-    const space = new SpaceView(this.section('space'), rig, () => this.painter.changed(space.canvas, true));
-    this.painter.add(space.canvas, () => space.draw(this.series, ...this.trail()));
+    this.space = new SpaceView(this.section('space'), rig, () => {
+      this.painter.changed(this.space.canvas, true);
+      this.caption();
+    });
+    this.painter.add(this.space.canvas, () => this.space.draw(this.series, ...this.trail()));
   }
 
   /// Rows [from, to) of the trail, and the mass's.
@@ -94,6 +97,12 @@ export class Views {
     write(this.section('above-words'), aboveWords(scene.ellipse));
     write(this.section('gaps-words'), gapsWords(series, now, sensors));
     write(this.section('signals-words'), signalsWords(series, now, sensors));
-    write(this.section('space-words'), spaceWords(series, now));
+    write(this.section('space-words'), spaceWords(series, now, this.space.camera.direction));
   }
+}
+
+/// A valid range in other units; a range that has no end there (null) goes on for ever.
+function ends(range, scale) {
+  const [least, greatest] = range ?? [null, null];
+  return [least === null ? -Infinity : least * scale, greatest === null ? Infinity : greatest * scale];
 }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page for those who use the keyboard alone, and for those who hear it: axe-core, and every action by keys.
+
+import assert from 'node:assert';
+import { readdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { drawn, openBrowser, openPage, sleep, until } from './browser.mjs';
+import { startProgram } from './program.mjs';
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const kMostTabs = 30;
+
+let program;
+let browser;
+before(async () => {
+  program = await startProgram();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await program?.stop();
+});
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe-core finds nothing to say against the ${colorScheme} page`, async () => {
+    const { page } = await openPage(browser, program.url);
+    await page.emulateMedia({ colorScheme });
+    await drawn(page);
+    await sleep(1500);
+    await page.evaluate(kAxe);
+    const { violations, passes } = await page.evaluate(() => globalThis.axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' ')}`), []);
+    assert.ok(passes.some(({ id }) => id === 'color-contrast'));
+    await page.close();
+  });
+}
+
+/** Presses Tab until the element `id` has the focus. */
+async function tabTo(page, id) {
+  for (let i = 0; i < kMostTabs; ++i) {
+    await page.keyboard.press('Tab');
+    const focused = await page.evaluate(() => {
+      const { id: own, parentElement } = document.activeElement;
+      return { id: own || parentElement?.id, outline: getComputedStyle(document.activeElement).outlineStyle };
+    });
+    if (focused.id === id) {
+      assert.notEqual(focused.outline, 'none', `${id} has the focus and no ring`);
+      return;
+    }
+  }
+  assert.fail(`no way to ${id} in ${kMostTabs} tabs`);
+}
+
+test('keys alone start a recording, set a mark and stop it', async () => {
+  const { page, complaints } = await openPage(browser, program.url);
+  await drawn(page);
+  await until('a button', () => page.isEnabled('#record-button'));
+  await tabTo(page, 'record-button');
+  await page.keyboard.press('Enter');
+  await until('a recording', async () => (await page.textContent('#record-button')) === 'Stop recording');
+  await until('the words', async () => (await page.textContent('#record-words')).startsWith('Recording into '));
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'record-button');
+  assert.match(await page.textContent('#announcement'), /^Recording into .*\.csv\.$/);
+  await tabTo(page, 'mark-text');
+  await page.keyboard.type('a gust <b>of</b> wind');
+  await page.keyboard.press('Enter');
+  await until('the note', async () => (await page.textContent('#note-list')).includes('a gust <b>of</b> wind'));
+  await page.focus('#record-button');
+  await page.keyboard.press('Space');
+  await until('the end', async () => (await page.textContent('#record-button')) === 'Start recording');
+  await until('a download', () => page.isVisible('#download'));
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
+  const text = readFileSync(await download.path(), 'utf8');
+  assert.match(text, /^# penduline_recording = 1$/m);
+  assert.match(text, /a gust <b>of<\/b> wind/);
+  assert.ok(readdirSync(program.folder).some((name) => name.endsWith('.csv')));
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('keys alone turn the view in space, and turn it back', async () => {
+  const { page } = await openPage(browser, program.url);
+  await drawn(page);
+  const seenFrom = async () => /seen from (.*)\.$/.exec(await page.textContent('#space-words'))?.[1];
+  await until('words', async () => (await seenFrom()) !== undefined);
+  await tabTo(page, 'space');
+  const home = await seenFrom();
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('ArrowUp');
+  const turned = await seenFrom();
+  assert.notEqual(turned, home);
+  await page.keyboard.press('Home');
+  assert.equal(await seenFrom(), home);
+  await page.close();
+});
+
+test('the pointer turns the view in space', async () => {
+  const { page } = await openPage(browser, program.url);
+  await drawn(page);
+  await until('words', async () => (await page.textContent('#space-words')).includes('seen from'));
+  const view = page.locator('#space canvas');
+  await view.scrollIntoViewIfNeeded();
+  const { x, y } = await view.boundingBox();
+  const home = /seen from (.*)\.$/.exec(await page.textContent('#space-words'))[1];
+  await page.mouse.move(x + 150, y + 150);
+  await page.mouse.down();
+  await page.mouse.move(x + 220, y + 170, { steps: 5 });
+  await page.mouse.up();
+  assert.notEqual(/seen from (.*)\.$/.exec(await page.textContent('#space-words'))[1], home);
+  await page.close();
+});
+
+test('what is said aloud changes with the state only, not with each second', async () => {
+  const { page } = await openPage(browser, program.url);
+  await drawn(page);
+  await sleep(500);
+  const said = await page.evaluate(() => new Promise((resolve) => {
+    let changes = 0;
+    const observer = new MutationObserver(() => ++changes);
+    for (const live of document.querySelectorAll('[role=status], [role=alert], [aria-live]')) {
+      observer.observe(live, { childList: true, characterData: true, subtree: true });
+    }
+    setTimeout(() => resolve(changes), 3500);
+  }));
+  assert.equal(said, 0);
+  await page.close();
+});

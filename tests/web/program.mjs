@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penduline run sim: --web`: a running program for a browser to look at, and its stream of events.
+
+import { spawn } from 'node:child_process';
+import { mkdtempSync } from 'node:fs';
+import http from 'node:http';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { fileURLToPath } from 'node:url';
+
+const kRig = fileURLToPath(new URL('../../docs/rigs/tcrt5000.toml', import.meta.url));
+const kStart_ms = 20000;
+
+/** Starts the program on `port` (0: any) with `options`, in a folder of its own, and waits for the page's address. */
+export async function startProgram({ port = 0, options = [] } = {}) {
+  const folder = mkdtempSync(join(tmpdir(), 'penduline-web-'));
+  const program = spawn(process.env.PENDULINE,
+    ['run', 'sim:', '--rig', kRig, '--web', `127.0.0.1:${port}`, ...options],
+    { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
+  const ended = new Promise((resolve) => program.once('exit', resolve));
+  const url = await new Promise((resolve, reject) => {
+    const said = [];
+    const late = setTimeout(() => reject(new Error(`no address after ${kStart_ms} ms: ${said.join('\n')}`)), kStart_ms);
+    createInterface({ input: program.stderr }).on('line', (line) => {
+      said.push(line);
+      const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(line);
+      if (found) {
+        clearTimeout(late);
+        resolve(found[0]);
+      }
+    });
+    program.once('exit', () => reject(new Error(`ended: ${said.join('\n')}`)));
+  });
+  return {
+    url,
+    port: Number(new URL(url).port),
+    folder,
+    stop: async () => {
+      program.kill('SIGTERM');
+      await ended;
+    },
+  };
+}
+
+/** Follows `/live` of `url`: `events[name]` are the data of all events of that name, `stop()` ends it. */
+export function followLive(url) {
+  const events = { session: [], points: [], state: [], note: [] };
+  let rest = '';
+  const request = http.get(new URL('live', url), (response) => {
+    response.setEncoding('utf8');
+    response.on('error', () => {});
+    response.on('data', (text) => {
+      const blocks = (rest + text).split('\n\n');
+      rest = blocks.pop();
+      for (const block of blocks) {
+        const name = /^event: ?(.*)$/m.exec(block)?.[1];
+        if (name) events[name].push(JSON.parse(/^data: ?(.*)$/m.exec(block)[1]));
+      }
+    });
+  });
+  request.on('error', () => {});
+  return { events, stop: () => request.destroy() };
+}
+
+/** The rows of all `points` events as [t_s, value] of `column` (theta1_rad), no answer left out. */
+export function rowsOf(points, column) {
+  return points.flatMap((event) => event.t_s.map((t_s, i) => [t_s, event[column][i]]))
+    .filter(([, value]) => value !== null);
+}
