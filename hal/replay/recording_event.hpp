@@ -46,6 +46,7 @@ namespace event {
 inline constexpr std::string_view kBoot = "boot";
 inline constexpr std::string_view kConnected = "connected";
 inline constexpr std::string_view kDisconnected = "disconnected";
+inline constexpr std::string_view kMark = "mark";
 inline constexpr std::string_view kPong = "pong";
 inline constexpr std::string_view kRelease = "release";
 inline constexpr std::string_view kTrigger = "trigger";
@@ -71,6 +72,8 @@ inline constexpr std::array kEventKinds = {
                          "the magnet has let the pendulum go"},
     EventKindDescription{event::kTrigger, "host_us, t_us, t_uncertainty_us, edge, queue",
                          "the trigger input went `rising` or `falling`"},
+    EventKindDescription{event::kMark, "host_us, t_us, t_uncertainty_us, text",
+                         "somebody who watched marked this moment on the live page"},
     EventKindDescription{event::kUnrecorded, "samples",
                          "so many samples were measured here and could not be recorded"},
 };

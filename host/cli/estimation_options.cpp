@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "host/cli/log.hpp"
 #include "host/output/text_file.hpp"
 #include "host/session/session.hpp"
+#include "host/web/web_server.hpp"
+#include "host/web/web_session.hpp"
 
 namespace penduline {
 namespace {
@@ -43,7 +46,7 @@ std::function<void(const Summary&)> reporter(ServiceManager* service) {
 }
 
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
-                                                  const EstimationRun& run, const RigFile& rig,
+                                                  EstimationRun run, const RigFile& rig,
                                                   Source& source, const StopSignal& stop) {
   const RecordingHeader header = source.header();
   auto estimator = make_estimator(options.estimator, rig.rig, header.acquisition);
@@ -64,7 +67,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                    {.rig = rig,
                     .header = header,
                     .estimator = kind,
-                    .has_other_use = !run.recording.path.empty() ||
+                    .has_other_use = !run.recording.path.empty() || run.listener ||
                                      (run.lines != nullptr && run.lines->holds_any())});
   if (!outputs) {
     return tl::unexpected(outputs.error());
@@ -80,22 +83,33 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (run.lines != nullptr) {
     parts.beside = [&](const SessionTurn& turn) { return run.lines->turn(turn); };
   }
-  std::unique_ptr<Recorder> recorder;
+  RecordingOptions asked = run.recording;
+  asked.path = run.listener ? web_recording_path(run.web, asked) : asked.path;
+  RecordingSwitch recording(
+      [&](const RecordingHeader& now) {
+        return start_recorder(asked, now, run.live, run.live && !run.paced);
+      },
+      header);
   if (!run.recording.path.empty()) {
-    auto started = start_recorder(run.recording, header, run.live, run.live && !run.paced);
-    if (!started) {
+    if (const auto started = recording.start(); !started) {
       return tl::unexpected(started.error());
     }
-    recorder = std::move(*started);
-    parts.recorder = [&](const Sample& sample) { return recorder->record(sample); };
-    parts.note = [&, boot_id = header.boot_id](const RecordingEvent& event) mutable {
-      const RecordingHeader now = source.header();
-      const bool new_start =
-          event.kind == event::kBoot && std::exchange(boot_id, now.boot_id) != now.boot_id;
-      // A disk that takes no event takes no sample either, and that is told.
-      static_cast<void>(new_start ? recorder->go_on_with(now, event.utc_us)
-                                  : recorder->record(event));
-    };
+  }
+  if (!run.recording.path.empty() || run.listener) {
+    parts.recorder = [&](const Sample& sample) { return recording.record(sample); };
+    parts.note = [&](const RecordingEvent& event) { recording.note(event, source.header()); };
+  }
+  std::unique_ptr<WebSession> web;
+  if (run.listener) {
+    web = start_web(run.web, std::move(run.listener),
+                    {.rig = rig,
+                     .rig_name = std::filesystem::path(options.rig_path).stem().string(),
+                     .source = run.source,
+                     .estimator = std::string(estimator_name(kind)),
+                     .header = header},
+                    run.recording, recording);
+    web->join(parts);
+    (*outputs)->add(web->output(), Need::kOptional);
   }
   SessionResult result = run_session(
       parts, {.paced = run.paced, .live = run.live, .rows_on_stdout = rows_on_stdout}, stop);
@@ -114,8 +128,10 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
     log_warning("the source says nothing of its clock: the column utc_s is empty");
   }
   result.doubtful = result.doubtful || (run.lines != nullptr && run.lines->edges_lost());
-  if (recorder) {
-    conclude(recorder->finish(), run.live, result);
+  web.reset();  // so that nobody begins another one
+  result.doubtful = result.doubtful || recording.lost() > 0;
+  if (const auto report = recording.stop()) {
+    conclude(*report, run.live, result);
   }
   return result;
 }
@@ -174,12 +190,12 @@ tl::expected<RigFile, Error> load_rig(const std::string& path) {
   return rig;
 }
 
-ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
+ExitStatus estimate(const EstimationOptions& options, EstimationRun run, const RigFile& rig,
                     tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop) {
   if (!source) {
     return log_failure(source.error());
   }
-  const auto result = run_estimation(options, run, rig, **source, stop);
+  const auto result = run_estimation(options, std::move(run), rig, **source, stop);
   if (!result) {
     return log_failure(result.error());
   }

@@ -10,6 +10,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output_options.hpp"
 #include "host/cli/recording_options.hpp"
+#include "host/cli/web_options.hpp"
 #include "host/estimator/estimator.hpp"
 #include "host/gpio/session_lines.hpp"
 #include "host/rig_file.hpp"
@@ -34,6 +35,9 @@ struct EstimationRun {
   std::string input_path{};           ///< "": the samples come from no file
   ServiceManager* service = nullptr;  ///< told of a live run's turns; none: nobody
   SessionLines* lines = nullptr;      ///< of a board that is there; may be none
+  std::string source{};               ///< as typed
+  WebOptions web{};
+  std::unique_ptr<WebListener> listener{};  ///< of the live page; may be none
 };
 
 void add_estimation_options(CLI::App& command, EstimationOptions& options);
@@ -50,7 +54,7 @@ void add_rig_option(CLI::App& command, std::string& path);
 
 /// Runs a session on an opened source until it ends or `stop` is requested, and reports it on
 /// stderr.
-ExitStatus estimate(const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
+ExitStatus estimate(const EstimationOptions& options, EstimationRun run, const RigFile& rig,
                     tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop);
 
 }  // namespace penduline

@@ -11,6 +11,7 @@
 #include "host/cli/log.hpp"
 #include "host/cli/number_within.hpp"
 #include "host/source/source.hpp"
+#include "host/web/web_server.hpp"
 
 namespace penduline {
 namespace {

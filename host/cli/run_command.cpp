@@ -25,6 +25,7 @@
 #include "host/source/board_source.hpp"
 #include "host/source/port_finder.hpp"
 #include "host/source/source_uri.hpp"
+#include "host/web/web_server.hpp"
 
 namespace penduline {
 namespace {
@@ -41,6 +42,7 @@ struct RunOptions {
   BoardSettings board;
   std::optional<wire::OnboardEstimator> upload_rig;
   LineOptions lines;
+  WebOptions web;
 };
 
 tl::expected<std::unique_ptr<Source>, Error> open_source(
@@ -126,10 +128,15 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
   if (const auto known = look_up_hosts(options.estimation.output); !known) {
     return log_failure(known.error());
   }
+  auto listener = open_web(options.web);
+  if (!listener) {
+    return log_failure(listener.error());
+  }
   const StopSignal stop;
   std::unique_ptr<SessionLines> lines;
   if (source.is_board() && !is_stored(source)) {
-    auto opened = open_lines(options.lines, rig->lines, !options.recording.path.empty());
+    auto opened = open_lines(options.lines, rig->lines,
+                             !options.recording.path.empty() || *listener != nullptr);
     if (!opened) {
       return log_failure(opened.error());
     }
@@ -148,7 +155,10 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
                    .recording = options.recording,
                    .input_path = source.path,
                    .service = &service,
-                   .lines = lines.get()},
+                   .lines = lines.get(),
+                   .source = options.uri,
+                   .web = options.web,
+                   .listener = std::move(*listener)},
                   *rig, std::move(opened), stop);
 }
 
@@ -181,6 +191,7 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
   command->add_flag("--once", options->board.once,
                     "Fail where there is no board, or it goes, instead of waiting for it");
   add_line_options(*command, options->lines);
+  add_web_options(*command, options->web);
   command->add_flag("--fast", options->fast, "Do not wait for the samples' own times");
   add_simulation_options(*command, options->simulation,
                          "Until when a simulation runs; else endless");
@@ -191,7 +202,8 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       "  penduline run sim: --rig rig.toml --seconds 60 --fast --record rec.csv -o angles.csv\n"
       "  penduline run serial:/dev/ttyACM0 --rig rig.toml -o udp:localhost:9870 \\\n"
       "    -o mqtt://broker/lab/rig1 -o angles.csv\n"
-      "  penduline run auto --rig rig.toml --reset --release 2 --record rec.csv\n\n"
+      "  penduline run auto --rig rig.toml --reset --release 2 --record rec.csv\n"
+      "  penduline run auto --rig rig.toml --web 8080\n\n"
       "Of a board, the rig file's [gpio] may name lines of this computer: a light that is lit "
       "while\n"
       "samples come, a trigger whose edges are recorded, and a reset, also for a board that does "
@@ -223,6 +235,9 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
     }
     if (!is_live(*options, *source) || is_offline(options->estimation.estimator.kind)) {
       refuse_network_outputs(options->estimation.output);
+    }
+    if (options->web.address && is_offline(options->estimation.estimator.kind)) {
+      throw CLI::ValidationError("--web", "shows rows as they come: run gn or ekf");
     }
     if (is_live(*options, *source) &&
         options->estimation.estimator.kind == EstimatorKind::kSmoother) {

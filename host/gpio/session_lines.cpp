@@ -2,8 +2,9 @@
 // Opening the lines, and what each of them does in a turn.
 #include "host/gpio/session_lines.hpp"
 
-#include <cmath>
 #include <utility>
+
+#include "host/session/moment_event.hpp"
 
 namespace penduline {
 namespace {
@@ -95,18 +96,10 @@ std::vector<RecordingEvent> SessionLines::turn(const SessionTurn& turn) {
   return events;
 }
 
-RecordingEvent SessionLines::event_at(std::string_view kind, std::int64_t host_us,
-                                      std::int64_t utc_us, const SessionTurn& turn) const {
-  RecordingEvent event{.kind = std::string(kind), .utc_us = utc_us};
-  event.fields.push_back({"host_us", host_us});
+RecordingEvent SessionLines::event_at(std::string_view kind, const HostTime& moment,
+                                      const SessionTurn& turn) const {
   // Without the board nobody knows whether its clock still runs.
-  if (turn.clock && connected_) {
-    if (const auto moment = turn.clock->board_moment(host_us)) {
-      event.fields.push_back({"t_us", moment->t_us});
-      event.fields.push_back({"t_uncertainty_us", std::llround(moment->uncertainty_us)});
-    }
-  }
-  return event;
+  return moment_event(kind, moment, connected_ ? turn.clock : std::nullopt);
 }
 
 void SessionLines::take_release(const SessionTurn& turn, std::vector<RecordingEvent>& events) {
@@ -118,7 +111,7 @@ void SessionLines::take_release(const SessionTurn& turn, std::vector<RecordingEv
     listener_.warn("the magnet did not let go: " + release->error().message);
     return;
   }
-  events.push_back(event_at(event::kRelease, (*release)->monotonic_us, (*release)->utc_us, turn));
+  events.push_back(event_at(event::kRelease, **release, turn));
   listener_.say("the magnet has let go");
 }
 
@@ -128,7 +121,8 @@ void SessionLines::take_edges(const SessionTurn& turn, std::vector<RecordingEven
   }
   const TriggerInput::Taken taken = trigger_->take();
   for (const TriggerEdge& edge : taken.edges) {
-    RecordingEvent event = event_at(event::kTrigger, edge.host_us, edge.utc_us, turn);
+    RecordingEvent event =
+        event_at(event::kTrigger, {.monotonic_us = edge.host_us, .utc_us = edge.utc_us}, turn);
     event.fields.push_back({"edge", edge_});
     if (edge.others_may_be_lost) {
       event.fields.push_back({"queue", std::string("full")});

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "hal/linux/gpio.hpp"
+#include "hal/linux/host_time.hpp"
 #include "hal/replay/recording_event.hpp"
 #include "host/gpio/board_reset.hpp"
 #include "host/gpio/release_magnet.hpp"
@@ -63,8 +63,8 @@ class SessionLines {
   explicit SessionLines(LineListener listener) : listener_(std::move(listener)) {}
   void take_release(const SessionTurn& turn, std::vector<RecordingEvent>& events);
   void take_edges(const SessionTurn& turn, std::vector<RecordingEvent>& events);
-  [[nodiscard]] RecordingEvent event_at(std::string_view kind, std::int64_t host_us,
-                                        std::int64_t utc_us, const SessionTurn& turn) const;
+  [[nodiscard]] RecordingEvent event_at(std::string_view kind, const HostTime& moment,
+                                        const SessionTurn& turn) const;
 
   LineListener listener_;
   std::optional<BoardReset> reset_;

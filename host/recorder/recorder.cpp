@@ -40,6 +40,7 @@ Recorder::Recorder(RecorderSettings settings, RecordingSeries series)
     : settings_(std::move(settings)),
       series_(std::move(series)),
       name_(series_.name()),
+      present_name_(name_),
       queue_(settings_.queue_bytes / sizeof(RecordingEntry), settings_.when_full),
       thread_([this] { run(); }) {}
 
@@ -60,6 +61,11 @@ tl::expected<void, Error> Recorder::go_on_with(const RecordingHeader& header,
   return queue_.put(std::make_unique<BoardReturn>(BoardReturn{header, utc_us}));
 }
 
+std::string Recorder::present_name() const {
+  const std::lock_guard lock(present_mutex_);
+  return present_name_;
+}
+
 const RecorderReport& Recorder::finish() {
   if (thread_.joinable()) {
     queue_.close();
@@ -74,9 +80,14 @@ const RecorderReport& Recorder::finish() {
 
 void Recorder::run() {
   std::vector<RecordingEntry> entries;
+  std::size_t files = series_.files();
   while (queue_.take(entries, sync_due_.value_or(Clock::now() + kIdleWait))) {
     if (!record_all(entries)) {
       return;
+    }
+    if (std::exchange(files, series_.files()) != series_.files()) {
+      const std::lock_guard lock(present_mutex_);
+      present_name_ = series_.name();
     }
     // A disk that takes a line now and then is still full.
     if (queue_.empty() && Clock::now() - last_failure_ >= settings_.retry_period) {

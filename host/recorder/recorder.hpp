@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -71,6 +72,8 @@ class Recorder {
 
   /// Of the first file: its path, or "standard output".
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// The same of the present file. Of any thread.
+  [[nodiscard]] std::string present_name() const;
 
  private:
   Recorder(RecorderSettings settings, RecordingSeries series);
@@ -90,6 +93,8 @@ class Recorder {
   RecorderSettings settings_;
   RecordingSeries series_;
   const std::string name_;
+  mutable std::mutex present_mutex_;
+  std::string present_name_;
   RecordingQueue queue_;
   std::uint64_t added_ = 0;  ///< samples
   bool outage_ = false;

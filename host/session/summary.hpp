@@ -29,6 +29,11 @@ class Summary {
 
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
+  /// How many estimates had a flag of kFlagDescriptions.
+  [[nodiscard]] std::uint64_t flagged(Flags bit) const { return flagged_.of(bit); }
+  /// Mean rate over the steps from one number to the next: those without pauses or, where most
+  /// steps are too long for the nominal rate, those. None before two samples in a row.
+  [[nodiscard]] std::optional<double> rate_hz() const;
 
   /// In words, that the samples come at another rate than the nominal one, which the filters are
   /// made for; none where they are within 10 %.
@@ -46,10 +51,6 @@ class Summary {
   [[nodiscard]] std::string text() const;
 
  private:
-  /// Mean rate over the steps from one number to the next: those without pauses or, where most
-  /// steps are too long for the nominal rate, those. None before two samples in a row.
-  [[nodiscard]] std::optional<double> rate_hz() const;
-
   double nominal_hz_;
   std::uint64_t samples_ = 0;
   std::uint64_t lost_ = 0;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Handing a recorder over to the session's thread and back.
+#include "host/recorder/recording_switch.hpp"
+
+#include <utility>
+
+#include "hal/linux/host_time.hpp"
+
+namespace penduline {
+
+tl::expected<void, Error> RecordingSwitch::start() {
+  const std::lock_guard one_change(changing_);
+  RecordingHeader header;
+  {
+    const std::lock_guard lock(mutex_);
+    if (recorder_) {
+      return failure("A recording is under way already, in " + recorder_->present_name() + ".");
+    }
+    header = header_;
+  }
+  auto recorder = begin_(header);
+  if (!recorder) {
+    return tl::unexpected(recorder.error());
+  }
+  const std::lock_guard lock(mutex_);
+  // The board may have started anew meanwhile.
+  if (header_.boot_id != header.boot_id || header_.acquisition != header.acquisition ||
+      header_.serial != header.serial) {
+    if (const auto followed = (*recorder)->go_on_with(header_, std::nullopt); !followed) {
+      return followed;
+    }
+  }
+  recorder_ = std::move(*recorder);
+  state_ = {.last = recorder_->name(), .since_utc_us = host_time_now().utc_us};
+  return {};
+}
+
+tl::expected<RecorderReport, Error> RecordingSwitch::stop() {
+  const std::lock_guard one_change(changing_);
+  std::unique_ptr<Recorder> recorder;
+  {
+    const std::lock_guard lock(mutex_);
+    recorder = std::move(recorder_);
+  }
+  if (!recorder) {
+    return failure("No recording is under way.");
+  }
+  RecorderReport report = recorder->finish();
+  const std::lock_guard lock(mutex_);
+  state_ = {.last = report.name};
+  lost_ += report.lost;
+  return report;
+}
+
+RecordingSwitch::State RecordingSwitch::state() const {
+  const std::lock_guard lock(mutex_);
+  State state = state_;
+  if (recorder_) {
+    state.name = recorder_->present_name();
+    state.last = state.name;
+  }
+  return state;
+}
+
+std::uint64_t RecordingSwitch::lost() const {
+  const std::lock_guard lock(mutex_);
+  return lost_;
+}
+
+tl::expected<void, Error> RecordingSwitch::record(const Sample& sample) {
+  const std::lock_guard lock(mutex_);
+  if (!recorder_) {
+    return {};
+  }
+  ++state_.samples;
+  return recorder_->record(sample);
+}
+
+void RecordingSwitch::note(const RecordingEvent& event, const RecordingHeader& now) {
+  const std::lock_guard lock(mutex_);
+  const bool new_start =
+      event.kind == event::kBoot && std::exchange(header_, now).boot_id != now.boot_id;
+  if (recorder_) {
+    // A disk that takes no event takes no sample either, and that is told.
+    static_cast<void>(new_start ? recorder_->go_on_with(now, event.utc_us)
+                                : recorder_->record(event));
+  }
+}
+
+}  // namespace penduline

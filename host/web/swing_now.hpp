@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the pendulum swings just now: period, amplitude and ellipse of the last seconds.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "host/web/live_row.hpp"
+
+namespace penduline {
+
+/// The mass's path from above, an ellipse in metres.
+struct PathEllipse {
+  double a_m = 0;  ///< half the major axis
+  double b_m = 0;  ///< half the minor one, 0 or more
+  double x_m = 0;  ///< of its centre
+  double y_m = 0;
+  double orientation_rad = 0;  ///< of the major axis, from X to Y, 0 to pi
+  /// Seen from above: 1 anticlockwise, -1 clockwise, 0 where the width is within its uncertainty.
+  int sense = 0;
+};
+
+struct SwingNow {
+  double period_s = 0;
+  double amplitude_rad = 0;  ///< of the last swing
+  PathEllipse ellipse;       ///< of the last swing
+};
+
+/// Of the last `span_s` seconds; none where they have less than two swings that are ellipses, as at
+/// rest or while a hand moves the pendulum.
+[[nodiscard]] std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length_m,
+                                                double span_s = 8);
+
+}  // namespace penduline

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: Apache-2.0
+# `penduline run --web` as who watches sees it: the stream, the actions, the recordings.
+import pathlib
+import re
+import time
+import unittest
+
+from live_run import LiveRunTest
+from program import RIGS, ProgramTest, read_rows, run
+from web_client import Viewer, act, address_of, ask
+
+RIG = RIGS / "paper.toml"
+
+
+class WebTest(LiveRunTest, ProgramTest):
+    def start(self, *options, source="sim:"):
+        started = self.start_run("--web", "0", "--web-recordings", self.folder,
+                                 "--case", "conical", "--amplitude-deg", "8", *options,
+                                 source=source, rig=RIG)
+        _, port, _ = address_of(started)
+        return started, port
+
+    def viewer(self, port):
+        viewer = Viewer(port)
+        self.addCleanup(viewer.close)
+        return viewer
+
+    def test_the_page_comes_with_headers_that_let_nothing_else_run(self):
+        _, port = self.start()
+        for target in ("/", "/page.js", "/page.css"):
+            status, (head, body) = ask(port, target)
+            self.assertEqual(status, 200)
+            self.assertIn("Content-Security-Policy: default-src 'none'; script-src 'self';", head)
+            self.assertIn("X-Content-Type-Options: nosniff", head)
+            self.assertIn("Cache-Control: no-store", head)
+            self.assertNotEqual(body, "")
+
+    def test_a_viewer_gets_session_points_state_and_then_all_rows_as_they_are(self):
+        started, port = self.start()
+        started.wait_for_rows(30)
+        viewer = self.viewer(port)
+        self.assertIn("Content-Type: text/event-stream", viewer.head)
+        name, session = viewer.next()
+        self.assertEqual((name, session["source"], session["rate_hz"]), ("session", "sim:", 20))
+        self.assertEqual(session["rig"]["name"], "paper")
+        name, points = viewer.next()
+        self.assertEqual(name, "points")
+        self.assertGreaterEqual(len(points["t_s"]), 25)
+        while len(points["t_s"]) < 60:
+            for key, more in viewer.wait_for("points").items():
+                if key in ("signal_v", "gap_m"):
+                    points[key] = [a + b for a, b in zip(points[key], more)]
+                else:
+                    points[key] += more
+        started.wait_for_rows(70)
+        rows = started.rows()
+        zero_s = float(rows[0]["t_s"])
+        # Rows of a filter that fills begin before the first sample; from then on none is missing.
+        by_time = {round(float(row["t_s"]), 4): row for row in rows}
+        first_sample_s = 0.05
+        for i, t_s in enumerate(points["t_s"]):
+            row = by_time[round(t_s + first_sample_s, 4)]
+            if row["theta1_rad"] == "":
+                self.assertIsNone(points["theta1_rad"][i])
+            else:
+                self.assertAlmostEqual(points["theta1_rad"][i], float(row["theta1_rad"]), 6)
+                self.assertAlmostEqual(points["x_m"][i], float(row["x_m"]), 6)
+            self.assertEqual(points["flags"][i], int(row["flags"]))
+        self.assertLessEqual(zero_s, first_sample_s)
+        self.assertGreater(points["t_s"][-1], 2)
+
+    def test_the_state_tells_the_swing(self):
+        _, port = self.start("--estimator", "ekf")
+        state = self.viewer(port).wait_for("state", lambda data: data["period_s"] is not None)
+        # A conical pendulum of 0.3 m at 8 degrees.
+        self.assertAlmostEqual(state["period_s"], 1.094, delta=0.01)
+        self.assertAlmostEqual(state["amplitude_rad"], 0.1396, delta=0.004)
+        self.assertAlmostEqual(state["ellipse"]["a_m"], 0.0418, delta=0.001)
+        self.assertAlmostEqual(state["ellipse"]["b_m"], 0.0418, delta=0.001)
+        self.assertIn(state["ellipse"]["sense"], ("left", "right"))
+        self.assertEqual(state["lost"], 0)
+        self.assertTrue(state["connected"])
+
+    def test_a_recording_begun_on_the_page_replays_to_the_rows_of_the_run(self):
+        started, port = self.start()
+        started.wait_for_rows(10)
+        viewer = self.viewer(port)
+        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        session = viewer.wait_for("session", lambda data: data["recording"])
+        name = session["recording"]["name"]
+        self.assertRegex(name, r"^penduline-\d{8}T\d{6}Z\.csv$")
+        self.assertEqual(session["download"], name)
+        status, said = act(port, "/recording/start")
+        self.assertEqual(status, 409)
+        self.assertIn("under way already", said["error"])
+        started.wait_for_rows(started.count() + 20)
+        self.assertEqual(act(port, "/mark", {"text": "here\nit is"}), (200, {}))
+        self.assertEqual(viewer.wait_for("note", lambda data: data["kind"] == "mark")["text"],
+                         "here it is")
+        started.wait_for_rows(started.count() + 30)
+        self.assertEqual(act(port, "/recording/stop"), (200, {}))
+        self.assertEqual(act(port, "/recording/stop")[0], 409)
+        status, (head, body) = ask(port, "/recording")
+        self.assertEqual(status, 200)
+        self.assertIn(f'Content-Disposition: attachment; filename="{name}"', head)
+        recording = self.folder / name
+        self.assertEqual(body, recording.read_text())
+        self.assertRegex(body, r'# event = \{ kind = "mark", utc = \S+, host_us = \d+, '
+                               r'text = "here it is" \}')
+        self.finish(started)
+        replayed = self.folder / "replayed.csv"
+        run("replay", recording, "--rig", RIG, "-o", replayed)
+        live = {row["seq"]: row for row in started.rows()}
+        filled = [row for row in read_rows(replayed) if not int(row["flags"]) & 2048]
+        self.assertGreater(len(filled), 30)
+        for row in filled:
+            self.assertEqual(row, live[row["seq"]])
+
+    def test_the_recording_of_the_command_line_is_the_one_shown_and_goes_on_from_there(self):
+        path = self.folder / "rec.csv"
+        started, port = self.start("--record", path)
+        viewer = self.viewer(port)
+        session = viewer.wait_for("session")
+        self.assertEqual(session["recording"]["name"], "rec.csv")
+        started.wait_for_rows(10)
+        self.assertEqual(act(port, "/recording/stop"), (200, {}))
+        self.assertIsNone(viewer.wait_for("session")["recording"])
+        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        self.assertEqual(viewer.wait_for("session")["recording"]["name"], "rec-0002.csv")
+        said = self.finish(started)
+        self.assertTrue(any(re.search(r"recorded \d+ samples in .*rec-0002.csv$", line)
+                            for line in said), said)
+        self.assertGreaterEqual(len(read_rows(path)), 9)
+
+    def test_a_recording_on_the_standard_output_is_not_the_pages(self):
+        started, port = self.start("--record", "-", "-o", self.folder / "angles.csv")
+        self.assertFalse(self.viewer(port).wait_for("session")["can_record"])
+        self.assertEqual(act(port, "/recording/stop")[0], 409)
+        self.assertEqual(ask(port, "/recording")[0], 404)
+        self.finish(started)
+
+    def test_the_download_of_a_recording_that_grows_has_whole_lines(self):
+        started, port = self.start("--rate", "1000")
+        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        columns = None
+        for _ in range(10):
+            time.sleep(0.2)
+            status, (_, body) = ask(port, "/recording")
+            self.assertEqual(status, 200)
+            self.assertTrue(body.endswith("\n"))
+            rows = [line for line in body.splitlines() if line and not line.startswith("#")]
+            columns = columns or rows[0].count(",")
+            self.assertEqual({row.count(",") for row in rows}, {columns})
+        self.finish(started)
+
+    def test_at_1_khz_the_stream_is_thinned_and_every_extreme_is_there(self):
+        started, port = self.start("--rate", "1000", "--noise", "0.01")
+        viewer = self.viewer(port)
+        viewer.wait_for("state", lambda data: data["samples"] > 3000)
+        again = self.viewer(port)
+        points = again.wait_for("points")
+        started.wait_for_rows(2500)
+        thinned = {round(t_s, 4): i for i, t_s in enumerate(points["t_s"])}
+        self.assertLess(len(thinned), 0.7 * 1000 * points["t_s"][-1])
+        bins = {}
+        for row in started.rows():
+            t_s = round(float(row["t_s"]) - 0.001, 4)
+            if row["theta1_rad"] != "" and 0.5 <= t_s < 2:
+                bins.setdefault(int(t_s / 0.02 + 1e-6), []).append((t_s, float(row["theta1_rad"])))
+        self.assertGreater(len(bins), 70)
+        for rows in bins.values():
+            for t_s, _ in (min(rows, key=lambda row: row[1]), max(rows, key=lambda row: row[1])):
+                self.assertIn(t_s, thinned)
+
+    def test_a_port_that_is_taken_and_a_wrong_one_are_told(self):
+        _, port = self.start()
+        said = run("run", "sim:", "--rig", RIG, "--web", port, status=1).stderr
+        self.assertEqual(said, f"error: --web 127.0.0.1:{port}: Address already in use\n")
+        said = run("run", "sim:", "--rig", RIG, "--web", "http", status=2).stderr
+        self.assertIn("--web: found 'http', expected [ADDR:]PORT", said)
+        said = run("run", "sim:", "--rig", RIG, "--web", "0", "--estimator", "paper",
+                   status=2).stderr
+        self.assertIn("--web: shows rows as they come", said)
+
+    def test_what_runs_as_fast_as_it_can_is_shown_in_bounded_memory(self):
+        started, port = self.start("--fast", "-o", "/dev/null")
+        viewer = self.viewer(port)
+        viewer.wait_for("state", lambda data: data["samples"] > 500000)
+        status = pathlib.Path(f"/proc/{started.process.pid}/status").read_text()
+        self.assertLess(int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]), 150000)
+        points = self.viewer(port).wait_for("points")
+        self.assertLessEqual(points["t_s"][-1] - points["t_s"][0], 60)
+        started.interrupt()
+        self.assertEqual(started.end()[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
