@@ -76,7 +76,7 @@ Completions values_of(const CLI::Option& option, const std::vector<SerialDevice>
   if (kind == "WHERE") {
     return outputs();
   }
-  if (kind == "FILE") {
+  if (kind == "FILE" || kind == "DIR") {
     return {{.word = "", .help = "", .files = true}};
   }
   return choices_of(kind);

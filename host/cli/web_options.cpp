@@ -18,8 +18,8 @@ namespace {
 /// Whether a recording is a file, which can be ended and begun again and had by a viewer.
 bool is_file(const std::string& path) {
   std::error_code failed;
-  return path != "-" && (!std::filesystem::exists(path, failed) ||
-                         std::filesystem::is_regular_file(path, failed));
+  return path != "-" &&
+         (!std::filesystem::exists(path, failed) || std::filesystem::is_regular_file(path, failed));
 }
 
 }  // namespace
@@ -74,8 +74,7 @@ std::unique_ptr<WebSession> start_web(const WebOptions& options,
                                       RecordingSwitch& recorded) {
   const std::string token = listener->beyond_loopback() ? new_token() : "";
   subject.token_needed = !token.empty();
-  log_info(fmt::format("live page: {}{}", listener->url(),
-                       token.empty() ? "" : "#token=" + token));
+  log_info(fmt::format("live page: {}{}", listener->url(), token.empty() ? "" : "#token=" + token));
   return std::make_unique<WebSession>(
       std::move(listener),
       WebSettings{.subject = std::move(subject),

@@ -59,7 +59,8 @@ void LiveFeed::collect(LiveNews& news) {
     std::swap(news, news_);
     oldest = std::exchange(oldest_, 0);
   }
-  std::ranges::rotate(news.samples, news.samples.begin() + static_cast<std::ptrdiff_t>(oldest));
+  std::rotate(news.samples.begin(), news.samples.begin() + static_cast<std::ptrdiff_t>(oldest),
+              news.samples.end());
 }
 
 }  // namespace penduline

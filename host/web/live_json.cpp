@@ -35,8 +35,9 @@ Json sensors_of(const RigFile& file) {
   for (std::size_t i = 0; i < rig.layout.count; ++i) {
     const Vector3<double>& face = rig.layout.position_m[i];
     const Response<double>& response = rig.responses[i];
-    const double near_v = response.volts(response.nearest_m);
-    const double far_v = response.volts(response.farthest_m);
+    // No signal is below 0 V, whatever a straight line says.
+    const double near_v = std::max(response.volts(response.nearest_m), 0.);
+    const double far_v = std::max(response.volts(response.farthest_m), 0.);
     sensors.push_back(
         {{"name", file.sensor_names[i]},
          {"x_m", face.x()},
@@ -136,7 +137,8 @@ std::string state_json(const LiveSubject& subject, const LiveState& state,
     json["samples"] = state.counts->samples();
     json["lost"] = state.counts->lost();
     json["dropouts"] = state.counts->flagged(flag::kDropout);
-    json["restarts"] = state.counts->flagged(flag::kRestarted);
+    const std::uint64_t starts = state.counts->flagged(flag::kRestarted);
+    json["restarts"] = starts - (state.began_with_start && starts > 0 ? 1 : 0);
     json["rate_hz"] = rate_hz ? Json(*rate_hz) : Json();
     json["flags"] = flags_of(state);
   } else {

@@ -32,10 +32,10 @@ struct RecordingState {
 /// What does not change with every sample.
 struct LiveSubject {
   const RigFile& rig;
-  std::string rig_name;  ///< its file's
-  std::string source;    ///< as typed
-  std::string estimator;
-  RecordingHeader header;
+  std::string rig_name{};  ///< its file's
+  std::string source{};    ///< as typed
+  std::string estimator{};
+  RecordingHeader header{};
   bool token_needed = false;
 };
 
@@ -45,7 +45,8 @@ struct LiveState {
   std::optional<Summary> counts{};
   std::array<double, kFlagDescriptions.size()> flag_latest_s{};  ///< where it was counted
   std::optional<Sample> sample{};                                ///< the newest
-  std::string clock{};                                           ///< "": nothing is known
+  bool began_with_start = false;  ///< the session's first sample was the board's first, no restart
+  std::string clock{};            ///< "": nothing is known
   std::optional<SwingNow> swing{};
 };
 

@@ -71,6 +71,10 @@ void LivePage::take_samples() {
   }
   keep_rows();
   if (!news_.samples.empty()) {
+    if (!state_.sample) {
+      const Flags first = news_.samples.front().sample.flags;
+      state_.began_with_start = (first & flag::kRestarted) != 0;
+    }
     state_.sample = news_.samples.back().sample;
   }
 }

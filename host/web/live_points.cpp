@@ -28,8 +28,8 @@ void append_number(std::string& text, double value, std::size_t decimals) {
 
 /// Appends a list of what `cell` appends of each row.
 template <class Cell>
-void append_list(std::string& text, std::deque<LiveRow>::const_iterator begin,
-                 std::deque<LiveRow>::const_iterator end, const Cell& cell) {
+void append_list(std::string& text, const std::deque<LiveRow>::const_iterator& begin,
+                 const std::deque<LiveRow>::const_iterator& end, const Cell& cell) {
   text += '[';
   for (auto row = begin; row != end; ++row) {
     cell(*row);

@@ -30,6 +30,13 @@ AngleSeries last_angles(const std::deque<LiveRow>& rows, double span_s) {
   return series;
 }
 
+/// Where the mass is on its way round, in radians. That of a wide ellipse is counted from X: a
+/// circle has no axis to count from.
+double way_rad(const SwingEllipse& swing, bool wide) {
+  const double turn = swing.semi_minor_rad.value > 0 ? 1 : -1;
+  return swing.phase_rad.value + (wide ? turn * swing.orientation_rad.value : 0);
+}
+
 PathEllipse path_of(const SwingEllipse& swing, double length_m) {
   constexpr double kSigmas = 3;
   const double width = swing.semi_minor_rad.value;
@@ -48,6 +55,7 @@ PathEllipse path_of(const SwingEllipse& swing, double length_m) {
 std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length_m, double span_s) {
   constexpr std::size_t kFewestRows = 16;
   constexpr double kLeastOfResidual = 4;
+  constexpr double kWideFromRatio = 0.5;
   if (rows.empty()) {
     return std::nullopt;
   }
@@ -66,7 +74,9 @@ std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length
   }
   const SwingEllipse& first = swings.front();
   const SwingEllipse& last = swings.back();
-  const double turned_rad = last.phase_rad.value - first.phase_rad.value;
+  const bool wide =
+      std::abs(last.semi_minor_rad.value) > kWideFromRatio * last.semi_major_rad.value;
+  const double turned_rad = way_rad(last, wide) - way_rad(first, wide);
   const auto swings_freely = [&](const SwingEllipse& swing) {
     return swing.semi_major_rad.value > kLeastOfResidual * swing.residual_rad;
   };

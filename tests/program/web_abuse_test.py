@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What nobody should do to `penduline run --web` is refused, while not one sample is lost.
+import resource
 import socket
 import time
 import unittest
@@ -110,6 +111,8 @@ class WebAbuseTest(LiveRunTest, ProgramTest):
             self.assertLess(time.monotonic() - begin, 8)
 
     def test_1000_connections_keep_nobody_out(self):
+        files = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(files[0], min(4096, files[1])), files[1]))
         viewer = Viewer(self.port)
         viewer.wait_for("state")
         self.assertEqual(act(self.port, "/recording/start"), (200, {}))

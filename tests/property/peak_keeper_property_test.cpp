@@ -38,8 +38,8 @@ std::vector<LiveRow> any_rows() {
 }
 
 std::vector<double> curves(const LiveRow& row) {
-  return {row.theta1_rad, row.theta2_rad, row.signal_v[0],
-          row.signal_v[1], row.gap_m[0], row.gap_m[1]};
+  return {row.theta1_rad,  row.theta2_rad, row.signal_v[0],
+          row.signal_v[1], row.gap_m[0],   row.gap_m[1]};
 }
 
 /// Least and greatest of a curve in a bin; infinite where it has no answer there.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/host/headers.hpp"
+
 namespace {
 
 using namespace penduline;
@@ -73,7 +75,7 @@ TEST_CASE("Notes have a bound, too", "[web]") {
 
 TEST_CASE("The source's header is told once, when it is told", "[web]") {
   LiveFeed feed;
-  feed.tell(RecordingHeader{.board = "pico"});
+  feed.tell(test::header_of("pico"));
   LiveNews news;
   feed.collect(news);
   REQUIRE(news.header);

@@ -16,8 +16,8 @@ using namespace penduline::test;
 const RigFile kRig = parse_rig(std::string(kRigText), "rig.toml").value();
 
 /// A sample at `t_us` whose first sensor reads `volts`, and an estimate of `estimate_us`.
-LiveSample live(std::int64_t t_us, double volts, std::int64_t estimate_us,
-                std::int64_t host_us = 0, Flags flags = 0) {
+LiveSample live(std::int64_t t_us, double volts, std::int64_t estimate_us, std::int64_t host_us = 0,
+                Flags flags = 0) {
   LiveSample sample{.sample = {.t_us = t_us, .flags = flags},
                     .estimate = {.t_us = estimate_us, .flags = flags},
                     .host_us = host_us};

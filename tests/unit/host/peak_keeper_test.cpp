@@ -43,10 +43,18 @@ TEST_CASE("Of curves that rise through a bin its first and last row are kept", "
 
 TEST_CASE("A peak of one row is kept, whichever curve it is in", "[web]") {
   auto rows = rising_rows(20);
-  SECTION("the first angle") { rows[7].theta1_rad = 1; }
-  SECTION("the second angle, downwards") { rows[7].theta2_rad = -1; }
-  SECTION("a signal") { rows[7].signal_v[1] = 3; }
-  SECTION("a gap") { rows[7].gap_m[1] = 0.001; }
+  SECTION("the first angle") {
+    rows[7].theta1_rad = 1;
+  }
+  SECTION("the second angle, downwards") {
+    rows[7].theta2_rad = -1;
+  }
+  SECTION("a signal") {
+    rows[7].signal_v[1] = 3;
+  }
+  SECTION("a gap") {
+    rows[7].gap_m[1] = 0.001;
+  }
   CHECK(kept_places(rows) == std::vector<int>{0, 7, 19});
 }
 

@@ -47,6 +47,11 @@ TEST_CASE("Period, amplitude and ellipse of a swing are found within a per cent"
   CHECK(swing->ellipse.sense == 1);
 }
 
+TEST_CASE("A circle has a period, too, whichever way it goes", "[web]") {
+  CHECK(swing_now(swinging(0.1, 0.1, 0), kLengthM)->period_s == Approx(kPeriodS).epsilon(0.002));
+  CHECK(swing_now(swinging(0.1, -0.1, 0), kLengthM)->period_s == Approx(kPeriodS).epsilon(0.002));
+}
+
 TEST_CASE("The other way round is the other sense", "[web]") {
   CHECK(swing_now(swinging(0.1, -0.03, 0.6), kLengthM)->ellipse.sense == -1);
 }

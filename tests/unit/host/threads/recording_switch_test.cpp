@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "hal/replay/recording_reader.hpp"
+#include "tests/unit/host/headers.hpp"
 #include "tests/unit/host/scripted_source.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -25,7 +26,7 @@ RecordingSwitch switch_in(const TemporaryFolder& folder) {
                 {.series = {.path = folder.path("rec.csv"), .warn = [](const std::string&) {}}},
                 header);
           },
-          RecordingHeader{.board = "pico", .boot_id = 1}};
+          header_of("pico", 20, 1)};
 }
 
 std::string text_of(const std::string& path) {
@@ -67,14 +68,14 @@ TEST_CASE("Starting twice and stopping twice are refused in words", "[threads]")
   RecordingSwitch recording = switch_in(folder);
   CHECK(recording.stop().error().message == "No recording is under way.");
   REQUIRE(recording.start());
-  CHECK(folder.relative(recording.start().error().message).starts_with(
-      "A recording is under way already"));
+  CHECK(folder.relative(recording.start().error().message)
+            .starts_with("A recording is under way already"));
 }
 
 TEST_CASE("A recording that begins after a restart has the new start's header", "[threads]") {
   const TemporaryFolder folder;
   RecordingSwitch recording = switch_in(folder);
-  const RecordingHeader again{.board = "pico", .boot_id = 2};
+  const RecordingHeader again = header_of("pico", 20, 2);
   recording.note(boot_event(again, std::nullopt), again);
   REQUIRE(recording.start());
   REQUIRE(recording.stop());

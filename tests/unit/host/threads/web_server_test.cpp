@@ -3,19 +3,22 @@
 // nobody.
 #include "host/web/web_server.hpp"
 
-#include <boost/asio/connect.hpp>
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/streambuf.hpp>
 #include <boost/asio/write.hpp>
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cstdint>
 #include <istream>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "tests/unit/host/headers.hpp"
 #include "tests/unit/host/rig_text.hpp"
 
 namespace {
@@ -77,7 +80,7 @@ class Watched {
                   .rig_name = "rig",
                   .source = "sim:",
                   .estimator = "gn",
-                  .header = {.acquisition = {.rate_hz = 1000}}},
+                  .header = header_of("sim", 1000)},
                  [] { return RecordingState(); }};
   std::string port_;
   std::unique_ptr<WebServer> server_;
@@ -90,8 +93,8 @@ class Watched {
 class Client {
  public:
   explicit Client(const Watched& watched) : port_(watched.port()) {
-    boost::asio::connect(socket_,
-                         tcp::resolver(context_).resolve("127.0.0.1", watched.port()));
+    socket_.connect(
+        {boost::asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(std::stoi(port_))});
   }
 
   void send(const std::string& text) {
@@ -110,6 +113,7 @@ class Client {
   std::string line() {
     boost::system::error_code ended;
     boost::asio::read_until(socket_, received_, "\n", ended);
+    ended_ = ended && received_.size() == 0;
     std::string text;
     std::istream stream(&received_);
     std::getline(stream, text);
@@ -122,7 +126,7 @@ class Client {
       if (text.starts_with(begin)) {
         return true;
       }
-      if (text.empty() && received_.size() == 0) {
+      if (ended_) {
         return false;
       }
     }
@@ -133,6 +137,7 @@ class Client {
   boost::asio::io_context context_;
   tcp::socket socket_{context_};
   boost::asio::streambuf received_;
+  bool ended_ = false;
 };
 
 TEST_CASE("A viewer gets session, points and state, and then more points", "[threads]") {
