@@ -37,6 +37,7 @@ TEST_CASE("A session tells source, rig, board and rights", "[web]") {
   CHECK(json["estimator"] == "ekf");
   CHECK(json["rig"]["name"] == "rig");
   CHECK(json["rig"]["length_m"] == 0.3);
+  CHECK(json["rig"]["disc"]["offset_m"] == 0.02);
   CHECK(json["board"] == "pico");
   CHECK(json["serial"].is_null());
   CHECK(json["rate_hz"] == 20.0);
