@@ -12,11 +12,14 @@ import { fileURLToPath } from 'node:url';
 const kRig = fileURLToPath(new URL('../../docs/rigs/tcrt5000.toml', import.meta.url));
 const kStart_ms = 20000;
 
+// A swing that the rig's sensors see well, all the way round.
+const kSwing = ['--estimator', 'ekf', '--theta-deg', '6', '--phi-deg', '30', '--psi', '3'];
+
 /** Starts the program on `port` (0: any) with `options`, in a folder of its own, and waits for the page's address. */
 export async function startProgram({ port = 0, options = [] } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'penduline-web-'));
   const program = spawn(process.env.PENDULINE,
-    ['run', 'sim:', '--rig', kRig, '--web', `127.0.0.1:${port}`, ...options],
+    ['run', 'sim:', '--rig', kRig, '--web', `127.0.0.1:${port}`, ...kSwing, ...options],
     { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
   const ended = new Promise((resolve) => program.once('exit', resolve));
   const url = await new Promise((resolve, reject) => {
