@@ -15,29 +15,33 @@ const kStart_ms = 20000;
 // A swing that the rig's sensors see well, all the way round.
 const kSwing = ['--estimator', 'ekf', '--theta-deg', '6', '--phi-deg', '30', '--psi', '3'];
 
-/** Starts the program on `port` (0: any) with `options`, in a folder of its own, and waits for the page's address. */
-export async function startProgram({ port = 0, options = [] } = {}) {
+/**
+ * Starts the program at `address` and `port` (0: any), in a folder of its own, and waits until it has printed the
+ * page's address; `url` is that of this machine, `token` what stands behind it.
+ */
+export async function startProgram({ address = '127.0.0.1', port = 0 } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'penduline-web-'));
   const program = spawn(process.env.PENDULINE,
-    ['run', 'sim:', '--rig', kRig, '--web', `127.0.0.1:${port}`, ...kSwing, ...options],
+    ['run', 'sim:', '--rig', kRig, '--web', `${address}:${port}`, ...kSwing],
     { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
   const ended = new Promise((resolve) => program.once('exit', resolve));
-  const url = await new Promise((resolve, reject) => {
+  const printed = await new Promise((resolve, reject) => {
     const said = [];
     const late = setTimeout(() => reject(new Error(`no address after ${kStart_ms} ms: ${said.join('\n')}`)), kStart_ms);
     createInterface({ input: program.stderr }).on('line', (line) => {
       said.push(line);
-      const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(line);
+      const found = /http:\/\/\S+/.exec(line);
       if (found) {
         clearTimeout(late);
-        resolve(found[0]);
+        resolve(new URL(found[0]));
       }
     });
     program.once('exit', () => reject(new Error(`ended: ${said.join('\n')}`)));
   });
   return {
-    url,
-    port: Number(new URL(url).port),
+    url: `http://127.0.0.1:${printed.port}/`,
+    port: Number(printed.port),
+    token: printed.hash,
     folder,
     stop: async () => {
       program.kill('SIGTERM');

@@ -7,6 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { violations } from './axe.mjs';
 import { axesOf, drawn, openBrowser, openPage, until } from './browser.mjs';
 
 const kRows = 72000; // an hour at 20 Hz
@@ -76,6 +77,7 @@ test('an hour at 20 Hz opens from a file, whole, without a complaint or a button
   assert.deepEqual(await page.locator('#analysis-rows tr').first().locator('th, td').allTextContents(),
     ['Period', '1.1020 s ± 0.0002 s']);
   assert.match(await page.textContent('#angles-words'), /θ₁ went from −4\.58° to 4\.58°/);
+  assert.deepEqual(await violations(page), []);
   assert.deepEqual(complaints, []);
   await page.close();
 });

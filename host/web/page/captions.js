@@ -16,7 +16,7 @@ export function anglesWords(series, [from, to]) {
 /// `ellipse` as `state` has it.
 export function aboveWords(ellipse) {
   if (!ellipse) {
-    return 'No ellipse fitted yet.';
+    return 'No ellipse is fitted.';
   }
   const { a_m, b_m, orientation_rad, sense } = ellipse;
   const way = sense ? `, ${sense === 'left' ? 'anticlockwise' : 'clockwise'}` : '';

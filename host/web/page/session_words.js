@@ -42,8 +42,8 @@ function boardSentence({ source, board, firmware, serial }, { connected }) {
   if (connected === false) {
     return `${board ?? 'The board'} is not there; waiting for it at ${source}.`;
   }
-  if (!board) {
-    return `None; the samples come from ${source}.`;
+  if (!board || board === 'sim') {
+    return board ? 'None: the rig is simulated.' : `None: the samples come from ${source}.`;
   }
   const parts = [board, firmware && `firmware ${firmware}`, serial && `serial number ${serial}`, `at ${source}`];
   return `${parts.filter(Boolean).join(', ')}.`;

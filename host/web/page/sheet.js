@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A canvas in CSS pixels, sharp on every screen.
 
+const kEye_px = 0.7;
+const kShades = 24;
+
 /// Clears `canvas` and returns its context, scaled to CSS pixels, with `width` and `height` in them.
 export function cleanSheet(canvas) {
   const ratio = devicePixelRatio;
@@ -18,9 +21,16 @@ export function cleanSheet(canvas) {
   return { context, width, height };
 }
 
+/// Appends `point` ({x, y}, or null for a break) unless the eye cannot tell it from the one before.
+export function addToTrail(points, point) {
+  const last = points[points.length - 1];
+  if (!point || !last || Math.hypot(point.x - last.x, point.y - last.y) >= kEye_px) {
+    points.push(point);
+  }
+}
+
 /// Strokes `points` ({x, y} or null for a break), oldest first, as a trail that fades to nothing.
 export function fadingTrail(context, points, colour, lineWidth) {
-  const kShades = 24;
   context.lineWidth = lineWidth;
   context.strokeStyle = colour;
   for (let shade = 0; shade < kShades; ++shade) {

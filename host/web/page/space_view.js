@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pendulum in space, to scale: pivot, rod, disc, sensors, mass, its trail and their shadow on the ground.
 import { Camera } from './camera.js';
-import { cleanSheet, fadingTrail } from './sheet.js';
+import { addToTrail, cleanSheet, fadingTrail } from './sheet.js';
 import { curveColour, faded, theme } from './theme.js';
 
 const kTurn_rad = Math.PI / 36;
@@ -59,8 +59,8 @@ export class SpaceView {
     const shadow = [];
     for (let row = from; row < to; ++row) {
       const [px, py, pz] = point(row);
-      trail.push(answered(row) ? project([px, py, pz]) : null);
-      shadow.push(answered(row) ? project([px, py, ground]) : null);
+      addToTrail(trail, answered(row) ? project([px, py, pz]) : null);
+      addToTrail(shadow, answered(row) ? project([px, py, ground]) : null);
     }
     this.drawGround(context, project, ground, length);
     fadingTrail(context, shadow, faded(theme.quiet, 0.45), 1.25);

@@ -77,9 +77,11 @@ export class TimePlot {
     return Array.from({ length: 1 + this.description.curves.length + 2 * bands }, () => []);
   }
 
+  /// None before the start, where a plot is not yet full.
   timeTicks(moments_s) {
     const step_s = moments_s.length > 1 ? moments_s[1] - moments_s[0] : 1;
-    return moments_s.map((t_s) => clock(t_s, step_s >= 1 ? 0 : step_s >= 0.1 ? 1 : 2));
+    const decimals = step_s >= 1 ? 0 : step_s >= 0.1 ? 1 : 2;
+    return moments_s.map((t_s) => (t_s < 0 ? '' : clock(t_s, decimals)));
   }
 
   /// Draws `series` from `span[0]` to `span[1]` (s), with the moments `marks_s`.

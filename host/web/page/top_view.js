@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mass's path from above: rings of millimetres, a fading trail, the fitted ellipse, where the mass is.
 import { roundStep, SteadyReach } from './reach.js';
-import { cleanSheet, fadingTrail } from './sheet.js';
+import { addToTrail, cleanSheet, fadingTrail } from './sheet.js';
 import { theme } from './theme.js';
 import { ticks } from './words.js';
 
@@ -28,7 +28,7 @@ export class TopView {
     this.drawRings(context, place, scale, reach);
     const points = [];
     for (let row = from; row < to; ++row) {
-      points.push(Number.isNaN(x[row]) ? null : place(x[row], y[row]));
+      addToTrail(points, Number.isNaN(x[row]) ? null : place(x[row], y[row]));
     }
     fadingTrail(context, points, theme.ink, 2);
     this.drawLabels(context, place, reach);
