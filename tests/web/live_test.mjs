@@ -119,3 +119,16 @@ test('the page says that the program is away, and goes on when it is back', asyn
   await page.close();
   await second.stop();
 });
+
+test('a stream that was refused is asked for again', async () => {
+  const page = await browser.newPage();
+  let refusals = 0;
+  await page.route('**/live', (route) => {
+    if (++refusals <= 2) return route.fulfill({ status: 503, body: 'full' });
+    return route.continue();
+  });
+  await page.goto(program.url);
+  await until('Live', async () => (await connection(page)) === 'Live');
+  assert.equal(refusals, 3);
+  await page.close();
+});
