@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves of columns against time by uPlot: bands, valid ranges, marks, the value under the pointer.
 import uPlot from 'uplot';
+import './licences.js';
 import { rowsToDraw } from './decimate.js';
 import { clock, fixed, ticks } from './words.js';
 import { curveColour, faded, theme } from './theme.js';
