@@ -132,3 +132,17 @@ test('a stream that was refused is asked for again', async () => {
   assert.equal(refusals, 3);
   await page.close();
 });
+
+test('a tab that slept shows the latest when it wakes up', async () => {
+  const { page, complaints } = await openPage(browser, program.url);
+  await drawn(page);
+  const { t_s: [, asleep_s] } = await axesOf(page, 'angles');
+  const devtools = await browser.newCDPSession(page);
+  await devtools.send('Page.setWebLifecycleState', { state: 'frozen' });
+  await sleep(5000);
+  await devtools.send('Page.setWebLifecycleState', { state: 'active' });
+  await until('the latest rows', async () => (await axesOf(page, 'angles')).t_s[1] > asleep_s + 4.5, 5000);
+  assert.equal(await connection(page), 'Live');
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
