@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Debian's chromium without a window and without the internet, and pages in it that keep what went wrong.
 
-import { mkdtempSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
@@ -12,8 +9,8 @@ const kArguments = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-qu
 
 /** A browser of `width` by `height` CSS pixels; `options` as of playwright (colorScheme, reducedMotion, ...). */
 export async function openBrowser({ width = 1440, height = 900, ...options } = {}) {
-  const profile = mkdtempSync(join(tmpdir(), 'penduline-chromium-'));
-  return chromium.launchPersistentContext(profile,
+  const kNewProfile = ''; // playwright makes one and removes it
+  return chromium.launchPersistentContext(kNewProfile,
     { executablePath: kChromium, args: kArguments, viewport: { width, height }, ...options });
 }
 

@@ -2,7 +2,7 @@
 // `penduline run sim: --web`: a running program for a browser to look at, and its stream of events.
 
 import { spawn } from 'node:child_process';
-import { mkdtempSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import http from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -46,6 +46,7 @@ export async function startProgram({ address = '127.0.0.1', port = 0 } = {}) {
     stop: async () => {
       program.kill('SIGTERM');
       await ended;
+      rmSync(folder, { recursive: true });
     },
   };
 }

@@ -2,7 +2,7 @@
 // The same page with a recording inside, as one file, without a program: the whole, zoom, analysis and rig.
 
 import assert from 'node:assert';
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -54,15 +54,19 @@ function oneFile(data) {
       `<script type="application/json" id="recording">${text}</script><script>${read('page.js')}</script>`);
 }
 
+const folder = mkdtempSync(join(tmpdir(), 'penduline-report-'));
 let browser;
 let url;
 before(async () => {
-  const path = join(mkdtempSync(join(tmpdir(), 'penduline-report-')), 'report.html');
+  const path = join(folder, 'report.html');
   writeFileSync(path, oneFile(recording()));
   url = pathToFileURL(path).href;
   browser = await openBrowser();
 });
-after(() => browser?.close());
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
 
 test('an hour at 20 Hz opens from a file, whole, without a complaint or a button of a live run', async (t) => {
   const start_ms = Date.now();
