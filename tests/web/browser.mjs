@@ -14,7 +14,7 @@ export async function openBrowser({ width = 1440, height = 900, ...options } = {
     { executablePath: kChromium, args: kArguments, viewport: { width, height }, ...options });
 }
 
-/** A page of `browser` at `url`; `complaints` fills with every console error and every failed request. */
+/** A page of `browser` at `url`; `complaints` fills with every console error or warning and exception. */
 export async function openPage(browser, url) {
   const page = await browser.newPage();
   const complaints = [];
