@@ -26,7 +26,7 @@ tl::expected<void, Error> RecordingSwitch::start() {
   // The board may have started anew meanwhile.
   if (header_.boot_id != header.boot_id || header_.acquisition != header.acquisition ||
       header_.serial != header.serial) {
-    if (const auto followed = (*recorder)->go_on_with(header_, std::nullopt); !followed) {
+    if (auto followed = (*recorder)->go_on_with(header_, std::nullopt); !followed) {
       return followed;
     }
   }
