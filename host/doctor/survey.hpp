@@ -29,8 +29,8 @@ struct Survey {
   std::uint64_t late = 0;
   std::uint64_t saturated = 0;
   std::array<SensorSurvey, kMaxSensors> sensors{};
-  std::string rate_complaint;           ///< in words; empty where the rate is the nominal one
-  std::vector<std::string> complaints;  ///< of the source, in words
+  std::string rate_complaint{};           ///< in words; empty where the rate is the nominal one
+  std::vector<std::string> complaints{};  ///< of the source, in words
 };
 
 /// Reads a source for so many of its seconds, or until it ends or a stop is requested. Fails where

@@ -71,10 +71,10 @@ TEST_CASE("Some saturated samples are doubtful, more than 1 % are bad", "[doctor
 }
 
 TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]") {
-  const auto [ambient_v, health] = GENERATE(std::pair{0.6, Health::kGood},  // 18 % of 3.3 V
-                                            std::pair{0.7, Health::kDoubtful},
-                                            std::pair{1.9, Health::kDoubtful},
-                                            std::pair{2.0, Health::kBad});
+  const auto [ambient_v, health] =
+      GENERATE(std::pair{0.6, Health::kGood},  // 18 % of 3.3 V
+               std::pair{0.7, Health::kDoubtful}, std::pair{1.9, Health::kDoubtful},
+               std::pair{2.0, Health::kBad});
   Survey survey = good_survey();
   survey.sensors[1] = steady(1.0, ambient_v);
   const Findings findings = check_sensors(survey, std::nullopt);
@@ -117,7 +117,7 @@ TEST_CASE("Noise is told in volts; of a pendulum that moves it is not", "[doctor
 }
 
 TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "[doctor]") {
-  const RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   const Response<double>& response = rig.rig.responses[0];
   const double rest_v =
       response.volts(DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, 0));
@@ -131,8 +131,8 @@ TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "
   };
   const std::string gap = "sensor " + rig.sensor_names[0] + " gap";
   const std::string noise = "sensor " + rig.sensor_names[0] + " noise";
-  const double told_v = std::hypot(rig.rig.noise[0].volts,
-                                   rig.rig.noise[0].gap_m / response.slope_m_per_v(rest_v));
+  const double told_v =
+      std::hypot(rig.rig.noise[0].volts, rig.rig.noise[0].gap_m / response.slope_m_per_v(rest_v));
 
   CHECK(about(of_first(rest_v, told_v), gap).health == Health::kGood);
   CHECK(about(of_first(rest_v, told_v), noise).health == Health::kGood);
@@ -141,7 +141,7 @@ TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "
 }
 
 TEST_CASE("A signal that the rig's response does not have is bad", "[doctor]") {
-  const RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   Survey survey = good_survey();
   survey.sensors[0] = steady(3.29, 0.001);
   CHECK(about(check_sensors(survey, rig), "sensor " + rig.sensor_names[0] + " gap").health ==
@@ -150,7 +150,7 @@ TEST_CASE("A signal that the rig's response does not have is bad", "[doctor]") {
 
 TEST_CASE("A rig of another number of sensors is bad, and the light is judged all the same",
           "[doctor]") {
-  RigFile rig = parse_rig(kRigText, "rig.toml").value();
+  RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   Survey survey = good_survey();
   survey.acquisition.sensor_count = 3;
   survey.sensors[2] = steady(1.5, 0.1);
