@@ -229,7 +229,7 @@ class BoardTest(LiveRunTest, ProgramTest):
         self.assertEqual(act(web, "/recording/stop"), (200, {}))
         body = ask(web, "/recording")[1][1]
         # As a trigger's: the host's time and the board's.
-        self.assertRegex(body, r'kind = "mark", utc = \S+, host_us = \d+, t_us = \d+, text = "before"')
+        self.assertRegex(body, r'kind = "mark", utc = \S+, host_us = \d+, t_us = \d+, t_uncertainty_us = \d+, text = "before"')
         self.finish(started)
 
 
