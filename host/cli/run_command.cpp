@@ -162,6 +162,54 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
                   *rig, std::move(opened), stop);
 }
 
+void add_board_options(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--emitter", options.board.emitter_mode,
+                  "Of a board: its emitters in turn lit and dark, always lit, or always dark")
+      ->transform(CLI::CheckedTransformer(by_name(wire::kEmitterModes)).description(""))
+      ->type_name("switched|lit|dark");
+  command
+      .add_option("--upload-rig", options.upload_rig,
+                  "Of a board: store the rig on it first, so that it finds the angles itself, too, "
+                  "by this\nestimator (ekf up to 100 Hz); it keeps the rig without power")
+      ->transform(CLI::CheckedTransformer(by_name(wire::kOnboardEstimators)).description(""))
+      ->type_name("gn|ekf");
+  command.add_flag("--once", options.board.once,
+                   "Fail where there is no board, or it goes, instead of waiting for it");
+}
+
+/// Throws CLI::ValidationError where an option does not suit the source.
+void require_suited(const CLI::App& command, const RunOptions& options, const SourceUri& source) {
+  if (source.is_board()) {
+    refuse_simulation_options(command, "is for the source sim: only", "--rate");
+  } else if (source.kind != SourceUri::Kind::kSimulation) {
+    refuse_simulation_options(command, "is for the source sim: only");
+  }
+  for (const char* name : {"--once", "--emitter", "--upload-rig", "--reset", "--release"}) {
+    if (command.count(name) > 0 && !source.is_board()) {
+      throw CLI::ValidationError(name, "is for a board only");
+    }
+  }
+  if (is_stored(source)) {
+    if (options.upload_rig) {
+      throw CLI::ValidationError("--upload-rig", "is for a board, not for its bytes in a file");
+    }
+    refuse_line_options(options.lines, "is for a board, not for its bytes in a file");
+  }
+  const EstimatorKind estimator = options.estimation.estimator.kind;
+  if (!is_live(options, source) || is_offline(estimator)) {
+    refuse_network_outputs(options.estimation.output);
+  }
+  if (options.web.address && is_offline(estimator)) {
+    throw CLI::ValidationError("--web", "shows rows as they come: run gn or ekf");
+  }
+  if (is_live(options, source) && estimator == EstimatorKind::kSmoother) {
+    throw CLI::ValidationError(
+        "--estimator",
+        "smoother looks back from later samples: run ekf with --record, then replay");
+  }
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& program, ExitStatus& status) {
@@ -176,20 +224,7 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
       ->required();
   add_estimation_options(*command, options->estimation);
   add_recording_options(*command, options->recording);
-  command
-      ->add_option("--emitter", options->board.emitter_mode,
-                   "Of a board: its emitters in turn lit and dark, always lit, or always dark")
-      ->transform(CLI::CheckedTransformer(by_name(wire::kEmitterModes)).description(""))
-      ->type_name("switched|lit|dark");
-  command
-      ->add_option(
-          "--upload-rig", options->upload_rig,
-          "Of a board: store the rig on it first, so that it finds the angles itself, too, "
-          "by this\nestimator (ekf up to 100 Hz); it keeps the rig without power")
-      ->transform(CLI::CheckedTransformer(by_name(wire::kOnboardEstimators)).description(""))
-      ->type_name("gn|ekf");
-  command->add_flag("--once", options->board.once,
-                    "Fail where there is no board, or it goes, instead of waiting for it");
+  add_board_options(*command, *options);
   add_line_options(*command, options->lines);
   add_web_options(*command, options->web);
   command->add_flag("--fast", options->fast, "Do not wait for the samples' own times");
@@ -214,36 +249,11 @@ void add_run_command(CLI::App& program, ExitStatus& status) {
     if (!source) {
       throw CLI::ValidationError("SOURCE", source.error().message);
     }
+    require_suited(*command, *options, *source);
     if (source->is_board()) {
-      refuse_simulation_options(*command, "is for the source sim: only", "--rate");
       options->board.patience =
           options->lines.reset ? kPatienceAfterReset : std::chrono::seconds(0);
       options->board.rate_millihz = rate_millihz(*command, options->simulation.settings.rate_hz);
-    } else if (source->kind != SourceUri::Kind::kSimulation) {
-      refuse_simulation_options(*command, "is for the source sim: only");
-    }
-    for (const char* name : {"--once", "--emitter", "--upload-rig", "--reset", "--release"}) {
-      if (command->count(name) > 0 && !source->is_board()) {
-        throw CLI::ValidationError(name, "is for a board only");
-      }
-    }
-    if (is_stored(*source) && options->upload_rig) {
-      throw CLI::ValidationError("--upload-rig", "is for a board, not for its bytes in a file");
-    }
-    if (is_stored(*source)) {
-      refuse_line_options(options->lines, "is for a board, not for its bytes in a file");
-    }
-    if (!is_live(*options, *source) || is_offline(options->estimation.estimator.kind)) {
-      refuse_network_outputs(options->estimation.output);
-    }
-    if (options->web.address && is_offline(options->estimation.estimator.kind)) {
-      throw CLI::ValidationError("--web", "shows rows as they come: run gn or ekf");
-    }
-    if (is_live(*options, *source) &&
-        options->estimation.estimator.kind == EstimatorKind::kSmoother) {
-      throw CLI::ValidationError(
-          "--estimator",
-          "smoother looks back from later samples: run ekf with --record, then replay");
     }
     status = run(*options, *source);
   });
