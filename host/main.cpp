@@ -31,6 +31,7 @@ int run_program(int argc, char** argv) {
   add_doctor_command(program, status);
   add_plot_command(program, status);
   add_replay_command(program, status);
+  add_report_command(program, status);
   add_run_command(program, status);
   add_simulate_command(program, status);
   program.footer(

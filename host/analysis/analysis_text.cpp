@@ -26,20 +26,26 @@ std::string with_sigma(const Measured& figure, double unit = 1) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, sigma, decimals);
 }
 
+/// What an analysis has to say, line after line.
 class Report {
  public:
   void heading(const std::string& text) {
     fmt::format_to(std::back_inserter(text_), "\n{}\n", text);
+    heading_ = text;
   }
   void line(const std::string& name, const std::string& value) {
     fmt::format_to(std::back_inserter(text_), "  {:<26}{}\n", name, value);
+    figures_.emplace_back(heading_.empty() ? name : heading_ + ": " + name, value);
   }
   void note(const std::string& text) { fmt::format_to(std::back_inserter(text_), "  {}\n", text); }
   void free(const std::string& text) { text_ += text; }
   [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const AnalysisFigures& figures() const { return figures_; }
 
  private:
   std::string text_;
+  std::string heading_;
+  AnalysisFigures figures_;
 };
 
 void put_period(const SwingAnalysis& analysis, Report& report) {
@@ -193,10 +199,7 @@ void put_comparison(const SwingAnalysis& analysis, Report& report) {
   report.line("experiment is late by", with_sigma(comparison.delay_s, 1e-3) + " ms");
 }
 
-}  // namespace
-
-std::string analysis_text(const SwingAnalysis& analysis, const std::string& file) {
-  Report report;
+void put_all(const SwingAnalysis& analysis, const std::string& file, Report& report) {
   report.free(fmt::format("Free swing in {}\n", file));
   report.line("from, to", fmt::format("{:.3f} s, {:.3f} s", analysis.series.t_s.front(),
                                       analysis.series.t_s.back()));
@@ -217,7 +220,20 @@ std::string analysis_text(const SwingAnalysis& analysis, const std::string& file
   put_ellipse(analysis, report);
   put_comparison(analysis, report);
   report.free("\n+- is one standard deviation.\n");
+}
+
+}  // namespace
+
+std::string analysis_text(const SwingAnalysis& analysis, const std::string& file) {
+  Report report;
+  put_all(analysis, file, report);
   return report.text();
+}
+
+AnalysisFigures analysis_figures(const SwingAnalysis& analysis) {
+  Report report;
+  put_all(analysis, "", report);
+  return report.figures();
 }
 
 }  // namespace penduline

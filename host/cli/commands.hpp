@@ -16,6 +16,7 @@ void add_devices_command(CLI::App& program, ExitStatus& status);
 void add_doctor_command(CLI::App& program, ExitStatus& status);
 void add_plot_command(CLI::App& program, ExitStatus& status);
 void add_replay_command(CLI::App& program, ExitStatus& status);
+void add_report_command(CLI::App& program, ExitStatus& status);
 void add_run_command(CLI::App& program, ExitStatus& status);
 void add_simulate_command(CLI::App& program, ExitStatus& status);
 

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penduline report`: a recording in, one page that shows all of it out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/analysis/analysis_report.hpp"
+#include "host/analysis/angle_series.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/estimation_options.hpp"
+#include "host/cli/log.hpp"
+#include "host/output/text_file.hpp"
+#include "host/report/report_page.hpp"
+#include "host/report/report_points.hpp"
+#include "host/report/report_rows.hpp"
+#include "host/session/session.hpp"
+#include "host/web/live_json.hpp"
+
+namespace penduline {
+namespace {
+
+struct ReportOptions {
+  std::string path;
+  std::string rig_path;
+  EstimatorOptions estimator{.kind = EstimatorKind::kSmoother};
+  std::string output_path;
+  bool strict = false;
+};
+
+/// Hands estimates to the report's rows.
+class RowsOutput final : public EstimateSink {
+ public:
+  explicit RowsOutput(ReportRows& rows) : rows_(rows) {}
+  tl::expected<void, Error> take(const Estimate<double>& estimate) override {
+    rows_.take(estimate);
+    return {};
+  }
+
+ private:
+  ReportRows& rows_;
+};
+
+/// How many samples, and from the first to the last how many seconds of their clock.
+struct Extent {
+  std::uint64_t samples = 0;
+  double seconds = 0;
+};
+
+tl::expected<Extent, Error> extent_of(Source& source) {
+  Extent extent;
+  Sample sample;
+  std::int64_t last_us = 0;
+  while (true) {
+    const auto read = source.read(sample);
+    if (!read) {
+      return tl::unexpected(read.error());
+    }
+    if (*read == ReadResult::kEnded) {
+      return extent;
+    }
+    const bool goes_on = extent.samples++ > 0 && sample.t_us > last_us;
+    extent.seconds += goes_on ? 1e-6 * static_cast<double>(sample.t_us - last_us) : 0;
+    last_us = sample.t_us;
+  }
+}
+
+/// What the recording's session has come to, as the page shows it.
+struct Recorded {
+  std::vector<LiveRow> rows;
+  std::vector<std::string> notes;
+  LiveState state;
+  bool doubtful = false;
+};
+
+tl::expected<Recorded, Error> read_recording(const ReportOptions& options, const RigFile& rig,
+                                             Source& source, double bin_s, const StopSignal& stop) {
+  const Acquisition<double> acquisition = source.header().acquisition;
+  auto estimator = make_estimator(options.estimator, rig.rig, acquisition);
+  if (!estimator) {
+    return tl::unexpected(estimator.error());
+  }
+  ReportRows rows(rig.rig, acquisition, bin_s);
+  RowsOutput output(rows);
+  Recorded recorded;
+  SessionParts parts{
+      .source = source, .estimator = **estimator, .output = output, .warn = log_warning};
+  parts.recorder = [&](const Sample& sample) -> tl::expected<void, Error> {
+    rows.take(sample);
+    if (!recorded.state.sample) {
+      recorded.state.began_with_start = (sample.flags & flag::kRestarted) != 0;
+    }
+    recorded.state.sample = sample;
+    return {};
+  };
+  parts.note = [&](const RecordingEvent& event) {
+    rows.take(event);
+    if (event.kind != event::kPong) {
+      recorded.notes.push_back(note_json(event, rows.latest_s()));
+    }
+  };
+  const SessionResult result = run_session(parts, {.rows_on_stdout = false}, stop);
+  if (result.error) {
+    return tl::unexpected(*result.error);
+  }
+  rows.finish();
+  recorded.rows = rows.kept();
+  recorded.state.counts = result.summary;
+  recorded.state.flag_latest_s = rows.flag_latest_s();
+  recorded.state.clock = result.clock ? result.clock->text() : "";
+  recorded.doubtful = result.doubtful;
+  return recorded;
+}
+
+/// The first swing's ellipse as a path of the mass.
+PathEllipse path_of(const SwingAnalysis& analysis, double length_m) {
+  constexpr double kSure = 2;
+  const Measured& minor = analysis.semi_minor_rad;
+  PathEllipse path{.a_m = length_m * std::sin(analysis.semi_major_rad.value),
+                   .b_m = length_m * std::sin(std::abs(minor.value))};
+  path.orientation_rad = analysis.orientation_rad ? analysis.orientation_rad->value : 0;
+  if (std::abs(minor.value) > kSure * minor.sigma) {
+    path.sense = minor.value > 0 ? 1 : -1;
+  }
+  return path;
+}
+
+/// Figures of `penduline analyze`, or why there are none.
+AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, LiveState& state) {
+  const Pendulum<double>& pendulum = rig.rig.pendulum;
+  const auto series = angles_of_recording(options.path, rig.rig);
+  auto analysis = series.and_then([&](const AngleSeries& angles) {
+    return analyze_swing(angles,
+                         {.gravity_m_s2 = pendulum.gravity_m_s2, .mass_kg = pendulum.mass_kg});
+  });
+  if (!analysis) {
+    return {{"No analysis", analysis.error().message}};
+  }
+  state.swing = SwingNow{.period_s = analysis->small_period_s.value,
+                         .amplitude_rad = analysis->semi_major_rad.value,
+                         .ellipse = path_of(*analysis, pendulum.length_m)};
+  return analysis_figures(*analysis);
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+ExitStatus report(const ReportOptions& options) {
+  if (options.path == "-") {
+    return log_failure({"found the standard input, expected a file: it is read more than once"});
+  }
+  const std::array<std::string, 3> paths{options.path, options.rig_path, options.output_path};
+  if (const auto distinct = require_distinct_files(paths); !distinct) {
+    return log_failure(distinct.error());
+  }
+  const auto rig = load_rig(options.rig_path);
+  if (!rig) {
+    return log_failure(rig.error());
+  }
+  const StopSignal stop;
+  const auto extent =
+      open_recording(options.path).and_then([](const auto& source) { return extent_of(*source); });
+  if (!extent) {
+    return log_failure(extent.error());
+  }
+  const auto source = open_recording(options.path);
+  if (!source) {
+    return log_failure(source.error());
+  }
+  const double bin_s = report_bin_s(extent->samples, extent->seconds, rig->rig.layout.count);
+  auto recorded = read_recording(options, *rig, **source, bin_s, stop);
+  if (stop.requested()) {
+    return log_failure({"stopped: no report was written"});
+  }
+  if (!recorded) {
+    return log_failure(recorded.error());
+  }
+  AnalysisFigures figures = analysis_of(options, *rig, recorded->state);
+  if (bin_s > 0) {
+    figures.insert(figures.begin(),
+                   {"Shown", fmt::format("the peaks of every {:.2f} s: {} of {} moments", bin_s,
+                                         recorded->rows.size(), extent->samples)});
+  }
+  const LiveSubject subject{.rig = *rig,
+                            .rig_name = std::filesystem::path(options.rig_path).stem().string(),
+                            .source = std::filesystem::path(options.path).filename().string(),
+                            .estimator = std::string(estimator_name(options.estimator.kind)),
+                            .header = (*source)->header()};
+  auto file = TextFile::create(options.output_path);
+  if (!file) {
+    return log_failure(file.error());
+  }
+  file->text() = report_page({.session = session_json(subject, {}),
+                              .state = state_json(subject, recorded->state, extent->samples),
+                              .notes = std::move(recorded->notes),
+                              .analysis = std::move(figures),
+                              .rig_toml = text_of(options.rig_path),
+                              .points = report_points(recorded->rows, rig->rig.layout.count)});
+  if (const auto written = file->flush(); !written) {
+    return log_failure(written.error());
+  }
+  log_info(recorded->state.counts->text());
+  return options.strict && recorded->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& program, ExitStatus& status) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = program.add_subcommand(
+      "report", "One page with all of a recording: plots, figures, rig; opens in any browser");
+  command->add_option("RECORDING", options->path, "A recording (docs/formats.md)")->required();
+  add_rig_option(*command, options->rig_path);
+  add_estimator_options(*command, options->estimator);
+  command->get_option("--estimator")->default_str("smoother");
+  command
+      ->add_option("-o,--output", options->output_path,
+                   "The page, an HTML file; - is the standard output")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--strict", options->strict,
+                    "End with status 3 where the data had flagged problems");
+  command->footer(
+      "The page needs nothing else: no program, no internet. It shows what the live page shows, "
+      "for\n"
+      "the whole recording, with zoom; and what 'penduline analyze' finds.\n\n"
+      "  penduline report rec.csv --rig rig.toml --output report.html");
+  command->final_callback([options, &status] { status = report(*options); });
+}
+
+}  // namespace penduline

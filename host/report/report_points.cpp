@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns to bytes, bytes to text.
+#include "host/report/report_points.hpp"
+
+#include <bit>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+namespace penduline {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the page reads little-endian numbers");
+
+constexpr std::size_t kByteBits = 8;
+constexpr std::size_t kDigitBits = 6;
+constexpr std::size_t kGroupBytes = 3;
+
+void append_base64(std::string& text, std::string_view bytes) {
+  using Digits =
+      boost::archive::iterators::base64_from_binary<boost::archive::iterators::transform_width<
+          std::string_view::const_iterator, kDigitBits, kByteBits>>;
+  std::copy(Digits(bytes.begin()), Digits(bytes.end()), std::back_inserter(text));
+  text.append((kGroupBytes - bytes.size() % kGroupBytes) % kGroupBytes, '=');
+}
+
+/// `value` of each row, in quotes.
+template <class Number, class Value>
+void append_column(std::string& text, std::span<const LiveRow> rows, const Value& value) {
+  std::vector<Number> numbers;
+  numbers.reserve(rows.size());
+  for (const LiveRow& row : rows) {
+    numbers.push_back(static_cast<Number>(value(row)));
+  }
+  const auto bytes = std::as_bytes(std::span(numbers));
+  text += '"';
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes are what is wanted
+  append_base64(text, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  text += '"';
+}
+
+/// One column a sensor, in an array.
+template <class Values>
+void append_columns(std::string& text, std::span<const LiveRow> rows, std::size_t sensors,
+                    const Values& values) {
+  text += '[';
+  for (std::size_t i = 0; i < sensors; ++i) {
+    text += i > 0 ? "," : "";
+    append_column<float>(text, rows, [&](const LiveRow& row) { return (row.*values)[i]; });
+  }
+  text += ']';
+}
+
+}  // namespace
+
+std::string report_points(std::span<const LiveRow> rows, std::size_t sensors) {
+  std::string text = "{\"t_s\":";
+  append_column<double>(text, rows, [](const LiveRow& row) { return row.t_s; });
+  constexpr std::pair<const char*, double LiveRow::*> kNumbers[] = {
+      {"theta1_rad", &LiveRow::theta1_rad},
+      {"theta2_rad", &LiveRow::theta2_rad},
+      {"sigma1_rad", &LiveRow::sigma1_rad},
+      {"sigma2_rad", &LiveRow::sigma2_rad},
+      {"x_m", &LiveRow::x_m},
+      {"y_m", &LiveRow::y_m},
+      {"z_m", &LiveRow::z_m}};
+  for (const auto& [name, member] : kNumbers) {
+    text += std::string(",\"") + name + "\":";
+    append_column<float>(text, rows, [&](const LiveRow& row) { return row.*member; });
+  }
+  text += ",\"signal_v\":";
+  append_columns(text, rows, sensors, &LiveRow::signal_v);
+  text += ",\"gap_m\":";
+  append_columns(text, rows, sensors, &LiveRow::gap_m);
+  text += ",\"flags\":";
+  append_column<std::uint32_t>(text, rows, [](const LiveRow& row) { return row.flags; });
+  return text + '}';
+}
+
+}  // namespace penduline

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples wait for their estimates.
+#include "host/report/report_rows.hpp"
+
+#include <cstdlib>
+
+namespace penduline {
+
+void ReportRows::take(const Sample& sample) {
+  if ((sample.flags & flag::kRestarted) != 0) {
+    event_t_us_ = sample.t_us;
+  }
+  const std::int64_t since_event_us = event_t_us_ ? sample.t_us - *event_t_us_ : 0;
+  event_t_us_ = event_t_us_.value_or(sample.t_us);
+  const std::int64_t host_us = event_host_us_ + since_event_us;
+  time_.follow(sample, host_us);
+  waiting_.push_back({.sample = sample, .host_us = host_us});
+}
+
+void ReportRows::take(const RecordingEvent& event) {
+  if (event.utc_us) {
+    event_host_us_ = *event.utc_us;
+    event_t_us_ = waiting_.empty() ? std::nullopt : std::optional(waiting_.back().sample.t_us);
+  }
+}
+
+void ReportRows::take(const Estimate<double>& estimate) {
+  const auto off_us = [&](const Waiting& one) { return std::abs(one.sample.t_us - estimate.t_us); };
+  if ((estimate.flags & flag::kRestarted) != 0) {
+    while (waiting_.size() > 1 && (waiting_.front().sample.flags & flag::kRestarted) == 0) {
+      waiting_.pop_front();
+    }
+  }
+  while (waiting_.size() > 1 && (waiting_[1].sample.flags & flag::kRestarted) == 0 &&
+         off_us(waiting_[1]) <= off_us(waiting_[0])) {
+    waiting_.pop_front();
+  }
+  if (waiting_.empty()) {
+    return;
+  }
+  const Waiting& nearest = waiting_.front();
+  const auto row =
+      rows_.next({.sample = nearest.sample, .estimate = estimate, .host_us = nearest.host_us});
+  if (!row) {
+    return;
+  }
+  keeper_.add(*row, kept_);
+  for (std::size_t i = 0; row->flags != 0 && i < kFlagDescriptions.size(); ++i) {
+    if ((row->flags & kFlagDescriptions[i].bit) != 0) {
+      flag_latest_s_[i] = row->t_s;
+    }
+  }
+}
+
+double ReportRows::latest_s() const {
+  return waiting_.empty() ? 0 : time_.at_board_s(waiting_.back().sample.t_us);
+}
+
+double report_bin_s(std::uint64_t samples, double seconds, std::size_t sensors) {
+  if (samples <= ReportRows::kMostRows) {
+    return 0;
+  }
+  // Of each bin the lowest and the highest row of both angles, every signal and every gap.
+  const auto most_of_bin = static_cast<double>(2 * (2 + 2 * sensors));
+  return seconds * most_of_bin / static_cast<double>(ReportRows::kMostRows);
+}
+
+}  // namespace penduline
