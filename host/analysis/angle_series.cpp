@@ -69,6 +69,17 @@ AngleSeries AngleSeries::between(double from_s, double to_s) const {
           .flags_against = flags_against};
 }
 
+AngleSeries AngleSeries::thinned(std::size_t stride) const {
+  AngleSeries result = *this;
+  for (auto* values : {&result.t_s, &result.theta1_rad, &result.theta2_rad}) {
+    for (std::size_t i = 0; i * stride < values->size(); ++i) {
+      (*values)[i] = (*values)[i * stride];
+    }
+    values->resize((values->size() + stride - 1) / stride);
+  }
+  return result;
+}
+
 std::string AngleSeries::left_out_text() const {
   if (left_out == 0) {
     return "";

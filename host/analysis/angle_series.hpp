@@ -37,6 +37,8 @@ struct AngleSeries {
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
   /// The rows from the moment `from_s` to `to_s`, both included.
   [[nodiscard]] AngleSeries between(double from_s, double to_s) const;
+  /// The first of each `stride` rows, 1 or more.
+  [[nodiscard]] AngleSeries thinned(std::size_t stride) const;
   /// The usual time from row to row; 0 below two rows.
   [[nodiscard]] double period_s() const;
 };

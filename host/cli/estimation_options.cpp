@@ -45,6 +45,26 @@ std::function<void(const Summary&)> reporter(ServiceManager* service) {
   };
 }
 
+/// Opens what the estimates go to, each file once in all that the command reads and writes.
+tl::expected<std::unique_ptr<Outputs>, Error> open_distinct_outputs(
+    const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
+    const RecordingHeader& header) {
+  std::vector<std::string> paths = output_paths(options.output);
+  paths.insert(paths.end(),
+               {named_input(run.input_path), named_input(options.rig_path), run.recording.path});
+  if (const auto distinct = require_distinct_files(paths); !distinct) {
+    return tl::unexpected(distinct.error());
+  }
+  const EstimatorKind kind = options.estimator.kind;
+  // Estimates that come all at once, after the last sample, hold nothing up.
+  return open_outputs(options.output, run.live && !is_offline(kind),
+                      {.rig = rig,
+                       .header = header,
+                       .estimator = kind,
+                       .has_other_use = !run.recording.path.empty() || run.listener ||
+                                        (run.lines != nullptr && run.lines->holds_any())});
+}
+
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
                                                   EstimationRun run, const RigFile& rig,
                                                   Source& source, const StopSignal& stop) {
@@ -53,22 +73,7 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (!estimator) {
     return tl::unexpected(estimator.error());
   }
-  std::vector<std::string> paths = output_paths(options.output);
-  const bool rows_on_stdout = std::ranges::count(paths, "-") > 0;
-  paths.insert(paths.end(),
-               {named_input(run.input_path), named_input(options.rig_path), run.recording.path});
-  if (const auto distinct = require_distinct_files(paths); !distinct) {
-    return tl::unexpected(distinct.error());
-  }
-  const EstimatorKind kind = options.estimator.kind;
-  // Estimates that come all at once, after the last sample, hold nothing up.
-  const auto outputs =
-      open_outputs(options.output, run.live && !is_offline(kind),
-                   {.rig = rig,
-                    .header = header,
-                    .estimator = kind,
-                    .has_other_use = !run.recording.path.empty() || run.listener ||
-                                     (run.lines != nullptr && run.lines->holds_any())});
+  const auto outputs = open_distinct_outputs(options, run, rig, header);
   if (!outputs) {
     return tl::unexpected(outputs.error());
   }
@@ -105,12 +110,13 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
                     {.rig = rig,
                      .rig_name = std::filesystem::path(options.rig_path).stem().string(),
                      .source = run.source,
-                     .estimator = std::string(estimator_name(kind)),
+                     .estimator = std::string(estimator_name(options.estimator.kind)),
                      .header = header},
                     run.recording, recording);
     web->join(parts);
     (*outputs)->add(web->output(), Need::kOptional);
   }
+  const bool rows_on_stdout = std::ranges::count(output_paths(options.output), "-") > 0;
   SessionResult result = run_session(
       parts, {.paced = run.paced, .live = run.live, .rows_on_stdout = rows_on_stdout}, stop);
   if (run.service != nullptr) {

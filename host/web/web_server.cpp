@@ -112,7 +112,7 @@ WebServer::WebServer(std::unique_ptr<WebListener> listener, WebGuard guard, Live
       listener_(std::move(listener)),
       timer_(listener_->context_) {
   const SignalsBlocked in_threads;
-  workers_.emplace(1);
+  workers_ = std::make_unique<asio::thread_pool>(1);
   accept();
   turn();
   thread_ = std::thread([this] { run(); });

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <tl/expected.hpp>
@@ -74,7 +73,7 @@ class WebServer {
   // Below, so that connections, which go with it, still find what is above.
   std::unique_ptr<WebListener> listener_;
   boost::asio::steady_timer timer_;
-  std::optional<boost::asio::thread_pool> workers_;  ///< a thread for what may wait
+  std::unique_ptr<boost::asio::thread_pool> workers_;  ///< a thread for what may wait
   std::thread thread_;
 };
 

@@ -72,7 +72,7 @@ class CompletionTest(ProgramTest):
         shell = Shell(self.folder, words, setup)
         self.addCleanup(shell.close)
         for typed, made in (
-                ("rep\t", "replay"),
+                ("repl\t", "replay"),
                 ("replay rec\t", "replay recording.csv"),
                 ("run sim: --ri\trig\t", "run sim: --rig rig.toml"),
                 ("run sim: --esti\tpa\t", "run sim: --estimator paper"),

@@ -91,7 +91,7 @@ class DocsTest(ProgramTest):
                     self.assertTrue((document.parent / target).exists(), f"{document}: {target}")
 
     def test_every_subcommand_has_an_example_in_its_help(self):
-        for command in ("analyze", "calibrate", "doctor", "plot", "replay", "run", "simulate"):
+        for command in ("analyze", "calibrate", "doctor", "plot", "replay", "report", "run", "simulate"):
             self.assertIn(f"  penduline {command} ", run(command, "--help").stdout)
 
 

@@ -165,7 +165,7 @@ class ReplayTest(ProgramTest):
     def test_a_command_that_is_none_is_named(self):
         self.assertEqual(run("fly", status=2).stderr,
                          "error: found command 'fly', expected analyze, calibrate, devices, doctor, plot, "
-                         "replay, run, simulate\n")
+                         "replay, report, run, simulate\n")
 
     def test_a_recording_may_begin_with_a_byte_order_mark(self):
         self.replay("\ufeff" + recording(range(20)), "--strict")

@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 
-const kRig = fileURLToPath(new URL('../../docs/rigs/tcrt5000.toml', import.meta.url));
+export const kRig = fileURLToPath(new URL('../../docs/rigs/tcrt5000.toml', import.meta.url));
 const kStart_ms = 20000;
 
 // A swing that the rig's sensors see well, all the way round.
