@@ -2,11 +2,14 @@
 // Columns to bytes, bytes to text.
 #include "host/report/report_points.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cstdint>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
 namespace penduline {
@@ -58,17 +61,20 @@ void append_columns(std::string& text, std::span<const LiveRow> rows, std::size_
 std::string report_points(std::span<const LiveRow> rows, std::size_t sensors) {
   std::string text = "{\"t_s\":";
   append_column<double>(text, rows, [](const LiveRow& row) { return row.t_s; });
-  constexpr std::pair<const char*, double LiveRow::*> kNumbers[] = {
-      {"theta1_rad", &LiveRow::theta1_rad},
-      {"theta2_rad", &LiveRow::theta2_rad},
-      {"sigma1_rad", &LiveRow::sigma1_rad},
-      {"sigma2_rad", &LiveRow::sigma2_rad},
-      {"x_m", &LiveRow::x_m},
-      {"y_m", &LiveRow::y_m},
-      {"z_m", &LiveRow::z_m}};
-  for (const auto& [name, member] : kNumbers) {
-    text += std::string(",\"") + name + "\":";
-    append_column<float>(text, rows, [&](const LiveRow& row) { return row.*member; });
+  struct Column {
+    std::string_view name;
+    double LiveRow::*member;
+  };
+  constexpr std::array kNumbers = {Column{"theta1_rad", &LiveRow::theta1_rad},
+                                   Column{"theta2_rad", &LiveRow::theta2_rad},
+                                   Column{"sigma1_rad", &LiveRow::sigma1_rad},
+                                   Column{"sigma2_rad", &LiveRow::sigma2_rad},
+                                   Column{"x_m", &LiveRow::x_m},
+                                   Column{"y_m", &LiveRow::y_m},
+                                   Column{"z_m", &LiveRow::z_m}};
+  for (const Column& column : kNumbers) {
+    text.append(",\"").append(column.name).append("\":");
+    append_column<float>(text, rows, [&](const LiveRow& row) { return row.*column.member; });
   }
   text += ",\"signal_v\":";
   append_columns(text, rows, sensors, &LiveRow::signal_v);
