@@ -61,18 +61,18 @@ void append_columns(std::string& text, std::span<const LiveRow> rows, std::size_
 std::string report_points(std::span<const LiveRow> rows, std::size_t sensors) {
   std::string text = "{\"t_s\":";
   append_column<double>(text, rows, [](const LiveRow& row) { return row.t_s; });
-  struct Column {
+  struct NumberColumn {
     std::string_view name;
     double LiveRow::*member;
   };
   constexpr std::array kNumbers = {Column{"theta1_rad", &LiveRow::theta1_rad},
-                                   Column{"theta2_rad", &LiveRow::theta2_rad},
-                                   Column{"sigma1_rad", &LiveRow::sigma1_rad},
-                                   Column{"sigma2_rad", &LiveRow::sigma2_rad},
-                                   Column{"x_m", &LiveRow::x_m},
-                                   Column{"y_m", &LiveRow::y_m},
-                                   Column{"z_m", &LiveRow::z_m}};
-  for (const Column& column : kNumbers) {
+                                   NumberColumn{"theta2_rad", &LiveRow::theta2_rad},
+                                   NumberColumn{"sigma1_rad", &LiveRow::sigma1_rad},
+                                   NumberColumn{"sigma2_rad", &LiveRow::sigma2_rad},
+                                   NumberColumn{"x_m", &LiveRow::x_m},
+                                   NumberColumn{"y_m", &LiveRow::y_m},
+                                   NumberColumn{"z_m", &LiveRow::z_m}};
+  for (const NumberColumn& column : kNumbers) {
     text.append(",\"").append(column.name).append("\":");
     append_column<float>(text, rows, [&](const LiveRow& row) { return row.*column.member; });
   }
