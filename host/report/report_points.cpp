@@ -65,7 +65,7 @@ std::string report_points(std::span<const LiveRow> rows, std::size_t sensors) {
     std::string_view name;
     double LiveRow::*member;
   };
-  constexpr std::array kNumbers = {Column{"theta1_rad", &LiveRow::theta1_rad},
+  constexpr std::array kNumbers = {NumberColumn{"theta1_rad", &LiveRow::theta1_rad},
                                    NumberColumn{"theta2_rad", &LiveRow::theta2_rad},
                                    NumberColumn{"sigma1_rad", &LiveRow::sigma1_rad},
                                    NumberColumn{"sigma2_rad", &LiveRow::sigma2_rad},
