@@ -218,7 +218,8 @@ ExitStatus report(const ReportOptions& options) {
                               .notes = std::move(recorded->notes),
                               .analysis = std::move(figures),
                               .rig_toml = text_of(options.rig_path),
-                              .points = report_points(recorded->rows, rig->rig.layout.count)});
+                              .points = report_points(recorded->rows, rig->rig.layout.count),
+                              .bin_s = bin_s});
   if (const auto written = file->flush(); !written) {
     return log_failure(written.error());
   }

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/wire/commands.hpp"
 #include "hal/linux/board_connection.hpp"
@@ -47,9 +49,13 @@ tl::expected<std::string, Finding> port_path(const SourceUri& uri) {
   if (uri.kind == SourceUri::Kind::kUsb) {
     return "";
   }
-  AutoChoice choice = choose_board(serial_devices(), uri.serial_number);
+  const std::vector<SerialDevice> devices = serial_devices();
+  AutoChoice choice = choose_board(devices, uri.serial_number);
   if (choice.path.empty()) {
-    return tl::unexpected(no_board(std::move(choice.reason)));
+    const auto boards = std::ranges::count_if(devices, &SerialDevice::is_penduline);
+    return tl::unexpected(boards > 1 ? bad("board", std::move(choice.reason),
+                                           "say which one: penduline doctor auto:SERIAL")
+                                     : no_board(std::move(choice.reason)));
   }
   return choice.path;
 }
@@ -155,7 +161,7 @@ Findings check_board(const SourceUri& uri, const StopSignal& stop) {
   if (!port) {
     return {bad("board", port.error().message,
                 "if another program has it, end that one (a terminal, another 'penduline run', "
-                "the service)")};
+                "the service); for usb: the udev rules must let you open it")};
   }
   Findings findings = {{.subject = "board", .found = (*port)->name()}};
   auto connection = BoardConnection::open(std::move(*port), [&] { return stop.requested(); });

@@ -95,7 +95,7 @@ class SensorChecks {
     const std::string found =
         fmt::format("{:.3f} V, {} of the range", signal_.volts, percent(share));
     if (signal_.count == 0) {
-      add(Health::kBad, "signal", "every sample is saturated",
+      add(Health::kBad, "signal", "no reading without saturation",
           "take a smaller load resistor or less emitter current, or a larger gap "
           "(docs/hardware.md)");
       return false;

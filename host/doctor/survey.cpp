@@ -2,11 +2,17 @@
 // Reading and sorting.
 #include "host/doctor/survey.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 #include "host/session/progress_bar.hpp"
 #include "host/session/summary.hpp"
 
 namespace penduline {
 namespace {
+
+/// Beyond the time that was asked for.
+constexpr std::chrono::seconds kPatience{5};
 
 void take(Survey& survey, const Sample& sample) {
   const double volts_per_count =
@@ -33,9 +39,13 @@ tl::expected<Survey, Error> survey(Source& source, double seconds, const StopSig
   Summary summary(result.acquisition);
   ProgressBar progress(false);
   const auto length_us = static_cast<std::int64_t>(seconds * 1e6);
-  std::int64_t begin_us = 0;
+  std::int64_t passed_us = 0;
+  std::int64_t last_us = 0;
+  // A board may answer and yet not sample.
+  const auto latest =
+      std::chrono::steady_clock::now() + kPatience + std::chrono::microseconds(length_us);
   Sample sample;
-  while (!stop.requested()) {
+  while (!stop.requested() && std::chrono::steady_clock::now() < latest) {
     const auto read = source.read(sample);
     if (!read) {
       return tl::unexpected(read.error());
@@ -46,12 +56,11 @@ tl::expected<Survey, Error> survey(Source& source, double seconds, const StopSig
     if (*read == ReadResult::kNothingYet) {
       continue;
     }
-    if (summary.samples() == 0) {
-      begin_us = sample.t_us;
-    }
+    // A restart of the board takes its time back.
+    passed_us += summary.samples() > 0 ? std::max<std::int64_t>(sample.t_us - last_us, 0) : 0;
+    last_us = sample.t_us;
     summary.count(sample);
     take(result, sample);
-    const std::int64_t passed_us = sample.t_us - begin_us;
     if (passed_us >= length_us) {
       break;
     }

@@ -35,7 +35,7 @@ std::string recording_json(const ReportParts& parts) {
   }
   return "{\"session\":" + parts.session + ",\"state\":" + parts.state + ",\"notes\":[" + notes +
          "],\"analysis\":" + quoted(parts.analysis) + ",\"rig_toml\":" + quoted(parts.rig_toml) +
-         ",\"points\":" + parts.points + '}';
+         ",\"bin_s\":" + quoted(parts.bin_s) + ",\"points\":" + parts.points + '}';
 }
 
 /// `html` with `element` replaced by `with`, which the page's template has once.

@@ -16,6 +16,7 @@ struct ReportParts {
   std::vector<std::pair<std::string, std::string>> analysis;  ///< names and values, to be read
   std::string rig_toml;
   std::string points;
+  double bin_s = 0;  ///< of which the points are the peaks; 0: they are all that there are
 };
 
 /// HTML that opens anywhere, loads nothing and runs nothing but the page's own script.

@@ -56,8 +56,8 @@ class ReportRows {
   std::array<double, kFlagDescriptions.size()> flag_latest_s_{};
 };
 
-/// How long bins must be for a recording of so many samples in so many seconds to leave no more
-/// than ReportRows::kMostRows; 0 where every row may stay.
+/// How long bins must be for a recording of so many samples in so many seconds to leave about
+/// ReportRows::kMostRows, flagged ones beside; 0 where every row may stay.
 [[nodiscard]] double report_bin_s(std::uint64_t samples, double seconds, std::size_t sensors);
 
 }  // namespace penduline

@@ -191,7 +191,12 @@ std::string note_text(const RecordingEvent& event) {
   if (event.kind == event::kTrigger) {
     return fmt::format("The trigger input went {}.", text_of(event, "edge"));
   }
-  return text_of(event, "text");
+  if (event.kind == event::kUnrecorded) {
+    return fmt::format("{} samples could not be recorded.",
+                       event.get<std::int64_t>("samples").value_or(0));
+  }
+  const std::string text = text_of(event, "text");
+  return text.empty() && event.kind != event::kMark ? event.kind : text;
 }
 
 }  // namespace penduline

@@ -201,9 +201,11 @@ void WebConnection::answer_post() {
 }
 
 void WebConnection::act(Action action) {
-  asio::post(*server_.workers_, [self = shared_from_this(), action = std::move(action)] {
+  // The worker hands the connection on, so that it never ends on the worker's thread.
+  asio::post(*server_.workers_, [self = shared_from_this(), executor = stream_.get_executor(),
+                                 action = std::move(action)]() mutable {
     auto done = action();
-    asio::post(self->stream_.get_executor(), [self, done = std::move(done)] {
+    asio::post(executor, [self = std::move(self), done = std::move(done)] {
       constexpr unsigned kOk = 200;
       constexpr unsigned kConflict = 409;
       if (done) {

@@ -14,12 +14,14 @@ const kLeast_s = 0.2;
 const kKeys = { '+': 0.5, '=': 0.5, '-': 2 };
 
 export class RecordedPage {
-  constructor({ session, state, notes, analysis, rig_toml, points }) {
+  constructor({ session, state, notes, analysis, rig_toml, points, bin_s = 0 }) {
     const painter = new Painter();
     followTheme(() => painter.changed());
     this.painter = painter;
     const decoded = decodedPoints(points);
-    this.series = new Series(decoded.t_s.length + 1, session.rig.sensors.length, 3.5 / (session.rate_hz || 20));
+    // The peaks of two bins may be their length apart twice.
+    const largestStep_s = Math.max(3.5 / (session.rate_hz || 20), 2 * bin_s);
+    this.series = new Series(decoded.t_s.length + 1, session.rig.sensors.length, largestStep_s);
     this.series.append(decoded);
     const { t } = this.series.columns;
     this.whole = this.series.end ? [t[0], this.series.latest_s] : [0, 1];

@@ -103,7 +103,7 @@ TEST_CASE("A sensor of which every sample is saturated has no signal", "[doctor]
   Survey survey = good_survey();
   survey.sensors[0].signal_v.clear();
   CHECK(about(check_sensors(survey, std::nullopt), "sensor 1 signal").found ==
-        "every sample is saturated");
+        "no reading without saturation");
 }
 
 TEST_CASE("Noise is told in volts; of a pendulum that moves it is not", "[doctor]") {
