@@ -124,7 +124,9 @@ class ReplayTest(ProgramTest):
                             "rec.csv:6: the line is longer than 4096 bytes; is this the right file?")
 
     def test_a_binary_file(self):
-        done = run("replay", PROGRAM, "--rig", RIGS / "paper.toml", status=1)
+        path = self.folder / "image"
+        path.write_bytes(bytes(range(256)))
+        done = run("replay", path, "--rig", RIGS / "paper.toml", status=1)
         self.assertRegex(done.stderr, r"error: .*:1: found a NUL byte, expected text")
 
     def test_a_file_that_is_not_there(self):
