@@ -48,7 +48,7 @@ std::function<void(const Summary&)> reporter(ServiceManager* service) {
 /// Opens what the estimates go to, each file once in all that the command reads and writes.
 tl::expected<std::unique_ptr<Outputs>, Error> open_distinct_outputs(
     const EstimationOptions& options, const EstimationRun& run, const RigFile& rig,
-    const RecordingHeader& header) {
+    const RecordingHeader& header, bool watched) {
   std::vector<std::string> paths = output_paths(options.output);
   paths.insert(paths.end(),
                {named_input(run.input_path), named_input(options.rig_path), run.recording.path});
@@ -61,19 +61,30 @@ tl::expected<std::unique_ptr<Outputs>, Error> open_distinct_outputs(
                       {.rig = rig,
                        .header = header,
                        .estimator = kind,
-                       .has_other_use = !run.recording.path.empty() || run.listener ||
+                       .has_other_use = !run.recording.path.empty() || watched ||
                                         (run.lines != nullptr && run.lines->holds_any())});
 }
 
+/// Begins the recordings that the run was asked for, or that its page asks for.
+RecordingSwitch recording_of(const EstimationRun& run) {
+  RecordingOptions asked = run.recording;
+  asked.path = run.listener ? web_recording_path(run.web, asked) : asked.path;
+  return RecordingSwitch([asked, live = run.live, paced = run.paced](const RecordingHeader& now) {
+    return start_recorder(asked, now, live, live && !paced);
+  });
+}
+
 tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& options,
-                                                  EstimationRun run, const RigFile& rig,
-                                                  Source& source, const StopSignal& stop) {
+                                                  const EstimationRun& run, const RigFile& rig,
+                                                  Source& source, RecordingSwitch& recording,
+                                                  std::unique_ptr<WebSession> web,
+                                                  const StopSignal& stop) {
   const RecordingHeader header = source.header();
   auto estimator = make_estimator(options.estimator, rig.rig, header.acquisition);
   if (!estimator) {
     return tl::unexpected(estimator.error());
   }
-  const auto outputs = open_distinct_outputs(options, run, rig, header);
+  const auto outputs = open_distinct_outputs(options, run, rig, header, web != nullptr);
   if (!outputs) {
     return tl::unexpected(outputs.error());
   }
@@ -88,31 +99,17 @@ tl::expected<SessionResult, Error> run_estimation(const EstimationOptions& optio
   if (run.lines != nullptr) {
     parts.beside = [&](const SessionTurn& turn) { return run.lines->turn(turn); };
   }
-  RecordingOptions asked = run.recording;
-  asked.path = run.listener ? web_recording_path(run.web, asked) : asked.path;
-  RecordingSwitch recording(
-      [&](const RecordingHeader& now) {
-        return start_recorder(asked, now, run.live, run.live && !run.paced);
-      },
-      header);
+  recording.join(header);
   if (!run.recording.path.empty()) {
     if (const auto started = recording.start(); !started) {
       return tl::unexpected(started.error());
     }
   }
-  if (!run.recording.path.empty() || run.listener) {
+  if (!run.recording.path.empty() || web) {
     parts.recorder = [&](const Sample& sample) { return recording.record(sample); };
     parts.note = [&](const RecordingEvent& event) { recording.note(event, source.header()); };
   }
-  std::unique_ptr<WebSession> web;
-  if (run.listener) {
-    web = start_web(run.web, std::move(run.listener),
-                    {.rig = rig,
-                     .rig_name = std::filesystem::path(options.rig_path).stem().string(),
-                     .source = run.source,
-                     .estimator = std::string(estimator_name(options.estimator.kind)),
-                     .header = header},
-                    run.recording, recording);
+  if (web) {
     web->join(parts);
     (*outputs)->add(web->output(), Need::kOptional);
   }
@@ -197,11 +194,26 @@ tl::expected<RigFile, Error> load_rig(const std::string& path) {
 }
 
 ExitStatus estimate(const EstimationOptions& options, EstimationRun run, const RigFile& rig,
-                    tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop) {
+                    const SourceOpener& open, const StopSignal& stop) {
+  RecordingSwitch recording = recording_of(run);
+  std::unique_ptr<WebSession> web;
+  if (run.listener) {
+    web = start_web(run.web, std::move(run.listener),
+                    {.rig = rig,
+                     .rig_name = std::filesystem::path(options.rig_path).stem().string(),
+                     .source = run.source,
+                     .estimator = std::string(estimator_name(options.estimator.kind))},
+                    run.recording, recording);
+  }
+  const auto source = open();
+  if (!source && stop.requested()) {
+    log_info(source.error().message);
+    return ExitStatus::kDone;
+  }
   if (!source) {
     return log_failure(source.error());
   }
-  const auto result = run_estimation(options, std::move(run), rig, **source, stop);
+  const auto result = run_estimation(options, run, rig, **source, recording, std::move(web), stop);
   if (!result) {
     return log_failure(result.error());
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <tl/expected.hpp>
@@ -52,9 +53,12 @@ void add_rig_option(CLI::App& command, std::string& path);
 /// Reads a rig and warns of its unknown keys.
 [[nodiscard]] tl::expected<RigFile, Error> load_rig(const std::string& path);
 
-/// Runs a session on an opened source until it ends or `stop` is requested, and reports it on
-/// stderr.
+/// Opens the source, which may wait for a board until `stop` is requested.
+using SourceOpener = std::function<tl::expected<std::unique_ptr<Source>, Error>()>;
+
+/// Runs a session on a source until it ends or `stop` is requested, and reports it on stderr. The
+/// live page is there before the source.
 ExitStatus estimate(const EstimationOptions& options, EstimationRun run, const RigFile& rig,
-                    tl::expected<std::unique_ptr<Source>, Error> source, const StopSignal& stop);
+                    const SourceOpener& open, const StopSignal& stop);
 
 }  // namespace penduline

@@ -41,8 +41,9 @@ ExitStatus replay(const ReplayOptions& options) {
     return log_failure(rig.error());
   }
   const StopSignal stop;
-  return estimate(options.estimation, {.input_path = options.path}, *rig, open_replay(options),
-                  stop);
+  return estimate(
+      options.estimation, {.input_path = options.path}, *rig, [&] { return open_replay(options); },
+      stop);
 }
 
 }  // namespace

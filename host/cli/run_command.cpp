@@ -144,11 +144,9 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
   }
   ServiceManager service;
   service.ready("opening " + options.uri);
-  auto opened = open_source(options, source, rig->rig, stop, service, lines.get());
-  if (!opened && stop.requested()) {
-    log_info(opened.error().message);
-    return ExitStatus::kDone;
-  }
+  const auto open = [&] {
+    return open_source(options, source, rig->rig, stop, service, lines.get());
+  };
   return estimate(options.estimation,
                   {.live = is_live(options, source),
                    .paced = !options.fast && !source.is_board(),
@@ -159,7 +157,7 @@ ExitStatus run(const RunOptions& options, const SourceUri& source) {
                    .source = options.uri,
                    .web = options.web,
                    .listener = std::move(*listener)},
-                  *rig, std::move(opened), stop);
+                  *rig, open, stop);
 }
 
 void add_board_options(CLI::App& command, RunOptions& options) {

@@ -35,7 +35,7 @@ void add_web_options(CLI::App& command, WebOptions& options);
 [[nodiscard]] std::string web_recording_path(const WebOptions& options,
                                              const RecordingOptions& recording);
 
-/// Serves the page, and says where it is.
+/// Serves the page, and says where it is. All outlive what is returned.
 [[nodiscard]] std::unique_ptr<WebSession> start_web(const WebOptions& options,
                                                     std::unique_ptr<WebListener> listener,
                                                     LiveSubject subject,

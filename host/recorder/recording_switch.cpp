@@ -8,6 +8,11 @@
 
 namespace penduline {
 
+void RecordingSwitch::join(const RecordingHeader& header) {
+  const std::lock_guard lock(mutex_);
+  header_ = header;
+}
+
 tl::expected<void, Error> RecordingSwitch::start() {
   const std::lock_guard one_change(changing_);
   RecordingHeader header;
@@ -16,7 +21,10 @@ tl::expected<void, Error> RecordingSwitch::start() {
     if (recorder_) {
       return failure("A recording is under way already, in " + recorder_->present_name() + ".");
     }
-    header = header_;
+    if (!header_) {
+      return failure("There are no samples yet: a recording can begin once the board is there.");
+    }
+    header = *header_;
   }
   auto recorder = begin_(header);
   if (!recorder) {
@@ -24,9 +32,9 @@ tl::expected<void, Error> RecordingSwitch::start() {
   }
   const std::lock_guard lock(mutex_);
   // The board may have started anew meanwhile.
-  if (header_.boot_id != header.boot_id || header_.acquisition != header.acquisition ||
-      header_.serial != header.serial) {
-    if (auto followed = (*recorder)->go_on_with(header_, std::nullopt); !followed) {
+  if (header_->boot_id != header.boot_id || header_->acquisition != header.acquisition ||
+      header_->serial != header.serial) {
+    if (auto followed = (*recorder)->go_on_with(*header_, std::nullopt); !followed) {
       return followed;
     }
   }
@@ -78,8 +86,10 @@ tl::expected<void, Error> RecordingSwitch::record(const Sample& sample) {
 
 void RecordingSwitch::note(const RecordingEvent& event, const RecordingHeader& now) {
   const std::lock_guard lock(mutex_);
-  const bool new_start =
-      event.kind == event::kBoot && std::exchange(header_, now).boot_id != now.boot_id;
+  const bool new_start = event.kind == event::kBoot && header_ && header_->boot_id != now.boot_id;
+  if (event.kind == event::kBoot) {
+    header_ = now;
+  }
   if (recorder_) {
     // A disk that takes no event takes no sample either, and that is told.
     static_cast<void>(new_start ? recorder_->go_on_with(now, event.utc_us)

@@ -26,9 +26,10 @@ class RecordingSwitch {
   using Begin =
       std::function<tl::expected<std::unique_ptr<Recorder>, Error>(const RecordingHeader&)>;
 
-  RecordingSwitch(Begin begin, RecordingHeader header)
-      : begin_(std::move(begin)), header_(std::move(header)) {}
+  explicit RecordingSwitch(Begin begin) : begin_(std::move(begin)) {}
 
+  /// The source is there, of which `header` tells: from now on recordings may begin.
+  void join(const RecordingHeader& header);
   /// Fails where there is a recording, or none can begin.
   tl::expected<void, Error> start();
   /// Ends the present recording and says what became of it. Fails where there is none.
@@ -53,7 +54,7 @@ class RecordingSwitch {
   Begin begin_;
   std::mutex changing_;  ///< one change at a time, which may take long
   mutable std::mutex mutex_;
-  RecordingHeader header_;
+  std::optional<RecordingHeader> header_;  ///< none: there is no source yet
   std::unique_ptr<Recorder> recorder_;
   State state_;
   std::uint64_t lost_ = 0;

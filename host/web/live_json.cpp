@@ -60,7 +60,7 @@ Json sensor_state(const LiveSubject& subject, const Sample& sample, std::size_t 
             {"saturated", false},
             {"out_of_range", false}};
   }
-  const Acquisition<double>& acquisition = subject.header.acquisition;
+  const Acquisition<double>& acquisition = subject.header->acquisition;
   const Reading reading = sample.readings[i];
   const double volts = signal_v(reading, acquisition);
   const double v_per_count = acquisition.reference_v / acquisition.full_scale_counts;
@@ -106,7 +106,8 @@ std::string text_of(const RecordingEvent& event, std::string_view key) {
 }  // namespace
 
 std::string session_json(const LiveSubject& subject, const RecordingState& recording) {
-  const RecordingHeader& header = subject.header;
+  const RecordingHeader header = subject.header.value_or(RecordingHeader());
+  const auto known = [&](double value) { return subject.header ? Json(value) : Json(); };
   Json present;
   if (recording.name) {
     present = {{"name", *recording.name}, {"since_utc", recording.since_utc}};
@@ -124,8 +125,8 @@ std::string session_json(const LiveSubject& subject, const RecordingState& recor
                   {"board", text_or_null(header.board)},
                   {"firmware", text_or_null(header.firmware)},
                   {"serial", text_or_null(header.serial)},
-                  {"rate_hz", header.acquisition.rate_hz},
-                  {"reference_v", header.acquisition.reference_v},
+                  {"rate_hz", known(header.acquisition.rate_hz)},
+                  {"reference_v", known(header.acquisition.reference_v)},
                   {"token_needed", subject.token_needed},
                   {"can_record", recording.can_record},
                   {"recording", std::move(present)},

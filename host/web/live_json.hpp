@@ -35,13 +35,13 @@ struct LiveSubject {
   std::string rig_name{};  ///< its file's
   std::string source{};    ///< as typed
   std::string estimator{};
-  RecordingHeader header{};
+  std::optional<RecordingHeader> header{};  ///< none: there is no source yet
   bool token_needed = false;
 };
 
 /// How the session stands.
 struct LiveState {
-  bool connected = true;
+  bool connected = false;
   std::optional<Summary> counts{};
   std::array<double, kFlagDescriptions.size()> flag_latest_s{};  ///< where it was counted
   std::optional<Sample> sample{};                                ///< the newest

@@ -11,8 +11,8 @@ constexpr std::size_t kMostNotes = 50;
 constexpr std::chrono::seconds kStatePeriod{1};
 constexpr std::chrono::seconds kCommentPeriod{5};
 
-double bin_s(const RecordingHeader& header) {
-  return header.acquisition.rate_hz > LivePage::kMostHz ? LivePage::kBinS : 0;
+double bin_s(const Acquisition<double>& acquisition) {
+  return acquisition.rate_hz > LivePage::kMostHz ? LivePage::kBinS : 0;
 }
 
 }  // namespace
@@ -21,9 +21,12 @@ LivePage::LivePage(LiveFeed& feed, LiveSubject subject, std::function<RecordingS
     : feed_(feed),
       subject_(std::move(subject)),
       recording_(std::move(recording)),
-      rows_(subject_.rig.rig, subject_.header.acquisition),
-      keeper_(bin_s(subject_.header), subject_.rig.rig.layout.count),
+      rows_(subject_.rig.rig, {}),
+      keeper_(bin_s({}), subject_.rig.rig.layout.count),
       points_(subject_.rig.rig.layout.count) {
+  if (const auto header = subject_.header) {
+    take_header(*header);
+  }
   turn(Clock::now());
 }
 
@@ -55,7 +58,9 @@ void LivePage::take_header(const RecordingHeader& header) {
   keep_rows();
   subject_.header = header;
   rows_.set_acquisition(header.acquisition);
-  keeper_ = PeakKeeper(bin_s(header), subject_.rig.rig.layout.count);
+  keeper_ = PeakKeeper(bin_s(header.acquisition), subject_.rig.rig.layout.count);
+  state_.connected = true;
+  state_changed_ = true;
 }
 
 void LivePage::take_samples() {

@@ -27,6 +27,8 @@ class LiveOutput final : public Output {
   LiveFeed& feed_;
 };
 
+constexpr const char* kNoSamplesYet = "There are no samples yet: the board is not there.";
+
 /// What a viewer is not told: it happens every second.
 bool is_routine(const RecordingEvent& event) {
   return event.kind == event::kPong;
@@ -45,6 +47,8 @@ WebSession::WebSession(std::unique_ptr<WebListener> listener, const WebSettings&
 WebSession::~WebSession() = default;
 
 void WebSession::join(SessionParts& parts) {
+  feed_.tell(parts.source.header());
+  joined_ = true;
   parts.recorder = [this, before = std::move(parts.recorder)](const Sample& sample) {
     feed_.take(sample);
     return before ? before(sample) : tl::expected<void, Error>();
@@ -113,13 +117,20 @@ RecordingState WebSession::recording_state() const {
 WebActions WebSession::actions() {
   return {.start_recording = [this] { return start_recording(); },
           .stop_recording = [this] { return stop_recording(); },
-          .mark = [this](const std::string& text) { return marks_.set(text); },
+          .mark = [this](const std::string& text) { return mark(text); },
           .download = [this] { return may_record_ ? recording_.state().last : std::nullopt; }};
+}
+
+tl::expected<void, Error> WebSession::mark(const std::string& text) {
+  return joined_ ? marks_.set(text) : failure(kNoSamplesYet);
 }
 
 tl::expected<void, Error> WebSession::start_recording() {
   if (!may_record_) {
     return failure("The recording goes to a stream and cannot be started here.");
+  }
+  if (!joined_) {
+    return failure(kNoSamplesYet);
   }
   auto started = recording_.start();
   if (started) {

@@ -2,6 +2,7 @@
 // A session that can be watched: its hooks on the one side, the web server on the other.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -29,7 +30,8 @@ struct WebSettings {
   std::function<void(const std::string&)> say;
 };
 
-/// From its construction on the page is served, until it goes.
+/// From its construction on the page is served, until it goes; before there is a session it says
+/// so.
 class WebSession {
  public:
   WebSession(std::unique_ptr<WebListener> listener, const WebSettings& settings);
@@ -45,13 +47,15 @@ class WebSession {
  private:
   [[nodiscard]] RecordingState recording_state() const;
   [[nodiscard]] WebActions actions();
+  tl::expected<void, Error> mark(const std::string& text);
   tl::expected<void, Error> start_recording();
   tl::expected<void, Error> stop_recording();
   void tell(std::string_view kind, std::string text);
 
   RecordingSwitch& recording_;
   bool may_record_;
-  bool connected_ = false;  ///< to a board, whose clock runs
+  std::atomic<bool> joined_ = false;  ///< there is a session
+  bool connected_ = false;            ///< to a board, whose clock runs
   std::function<void(const std::string&)> say_;
   LiveFeed feed_;
   Marks marks_;

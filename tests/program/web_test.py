@@ -117,7 +117,7 @@ class WebTest(LiveRunTest, ProgramTest):
         path = self.folder / "rec.csv"
         started, port = self.start("--record", path)
         viewer = self.viewer(port)
-        session = viewer.wait_for("session")
+        session = viewer.wait_for("session", lambda data: data["recording"])
         self.assertEqual(session["recording"]["name"], "rec.csv")
         started.wait_for_rows(10)
         self.assertEqual(act(port, "/recording/stop"), (200, {}))
@@ -195,6 +195,35 @@ class WebTest(LiveRunTest, ProgramTest):
 
 @unittest.skipIf(WITHOUT_PTS, "needs pseudo-terminals")
 class BoardTest(LiveRunTest, ProgramTest):
+    def test_the_page_is_there_before_the_board(self):
+        port = self.folder / "board"
+        started = self.start_run("--web", "0", "--web-recordings", self.folder,
+                                 source=f"serial:{port}", rig=RIG)
+        _, web, _ = address_of(started)
+        viewer = Viewer(web)
+        self.addCleanup(viewer.close)
+        session = viewer.wait_for("session")
+        self.assertEqual([session[key] for key in ("board", "rate_hz", "reference_v", "recording")],
+                         [None] * 4)
+        state = viewer.wait_for("state")
+        self.assertEqual((state["connected"], state["samples"], state["sensors"]), (False, 0, []))
+        refusal = {"error": "There are no samples yet: the board is not there."}
+        self.assertEqual(act(web, "/recording/start"), (409, refusal))
+        self.assertEqual(act(web, "/mark", {"text": "too early"}), (409, refusal))
+        board = SimBoard(port)
+        self.addCleanup(board.close)
+        self.assertEqual(viewer.wait_for("session", lambda data: data["board"])["rate_hz"], 20)
+        self.assertTrue(viewer.wait_for("state", lambda data: data["samples"])["connected"])
+        self.assertEqual(act(web, "/recording/start"), (200, {}))
+        self.assertEqual(act(web, "/mark", {"text": "now"}), (200, {}))
+        self.assertEqual(viewer.wait_for("note", lambda data: data["kind"] == "mark")["text"], "now")
+        self.finish(started)
+
+    def test_a_run_that_is_stopped_while_it_waits_has_ended_well(self):
+        started = self.start_run("--web", "0", source=f"serial:{self.folder / 'none'}", rig=RIG)
+        address_of(started)
+        self.finish(started)
+
     def test_a_board_that_starts_anew_is_told_and_the_time_goes_on(self):
         port = self.folder / "board"
         board = SimBoard(port)
@@ -204,7 +233,7 @@ class BoardTest(LiveRunTest, ProgramTest):
         _, web, _ = address_of(started)
         viewer = Viewer(web)
         self.addCleanup(viewer.close)
-        session = viewer.wait_for("session")
+        session = viewer.wait_for("session", lambda data: data["board"])
         self.assertEqual((session["board"], session["rate_hz"]), ("sim", 20))
         self.assertRegex(viewer.wait_for("state", lambda data: data["clock"])["clock"],
                          "^the board's clock is ")

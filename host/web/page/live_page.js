@@ -52,12 +52,13 @@ export class LivePage {
       return;
     }
     this.session = session;
+    // Above 100 Hz, rows come in bins of 20 ms.
+    const largestStep_s = 3.5 / Math.min(session.rate_hz || 20, 50);
     if (!before) {
-      // Above 100 Hz, rows come in bins of 20 ms.
-      const largestStep_s = 3.5 / Math.min(session.rate_hz || 20, 50);
       this.series = new Series(kCapacity, session.rig.sensors.length, largestStep_s);
       this.views = new Views(session, this.series, this.painter);
     }
+    this.series.largestStep_s = largestStep_s;
     write(document.getElementById('origin'), [session.rig.name, session.source].filter(Boolean).join(' · '));
     write(document.getElementById('program'), session.program);
     document.title = `${session.recording ? '● ' : ''}Penduline · ${session.source}`;

@@ -27,7 +27,9 @@ export function sentences(session, state) {
   const rows = [['Board', boardSentence(session, state)], ['Rate', rateSentence(session, state)],
     ['Samples', samplesSentence(state)]];
   const sensors = state.sensors ?? [];
-  rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
+  if (sensors.length) {
+    rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
+  }
   if (state.flags?.length) {
     rows.push(['Flags', flagsSentence(state.flags)]);
   }
@@ -50,6 +52,9 @@ function boardSentence({ source, board, firmware, serial }, { connected }) {
 }
 
 function rateSentence(session, state) {
+  if (!Number.isFinite(session.rate_hz)) {
+    return 'Not known before the board is there.';
+  }
   const wanted = `${fixed(session.rate_hz, 0)} Hz`;
   return Number.isFinite(state.rate_hz) ? `${fixed(state.rate_hz, 2)} Hz of ${wanted} asked for.` : `${wanted} asked for.`;
 }

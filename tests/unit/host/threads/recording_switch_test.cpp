@@ -20,13 +20,11 @@ namespace {
 using namespace penduline;
 using namespace penduline::test;
 
-RecordingSwitch switch_in(const TemporaryFolder& folder) {
-  return {[&folder](const RecordingHeader& header) {
-            return Recorder::start(
-                {.series = {.path = folder.path("rec.csv"), .warn = [](const std::string&) {}}},
-                header);
-          },
-          header_of("pico", 20, 1)};
+RecordingSwitch::Begin begin_in(const TemporaryFolder& folder) {
+  return [&folder](const RecordingHeader& header) {
+    return Recorder::start(
+        {.series = {.path = folder.path("rec.csv"), .warn = [](const std::string&) {}}}, header);
+  };
 }
 
 std::string text_of(const std::string& path) {
@@ -36,7 +34,8 @@ std::string text_of(const std::string& path) {
 
 TEST_CASE("Samples are recorded between start and stop only", "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   REQUIRE(recording.record(rest_sample(0)));
   REQUIRE(recording.start());
   CHECK(recording.state().name == folder.path("rec.csv"));
@@ -54,9 +53,21 @@ TEST_CASE("Samples are recorded between start and stop only", "[threads]") {
   CHECK(text.find("\n3,150000,") == std::string::npos);
 }
 
+TEST_CASE("No recording begins before there is a source", "[threads]") {
+  const TemporaryFolder folder;
+  RecordingSwitch recording(begin_in(folder));
+  const auto started = recording.start();
+  REQUIRE_FALSE(started);
+  CHECK(started.error().message ==
+        "There are no samples yet: a recording can begin once the board is there.");
+  recording.join(header_of("pico", 20, 1));
+  CHECK(recording.start());
+}
+
 TEST_CASE("A second recording is another file", "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   REQUIRE(recording.start());
   REQUIRE(recording.stop());
   REQUIRE(recording.start());
@@ -65,7 +76,8 @@ TEST_CASE("A second recording is another file", "[threads]") {
 
 TEST_CASE("Starting twice and stopping twice are refused in words", "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   CHECK(recording.stop().error().message == "No recording is under way.");
   REQUIRE(recording.start());
   CHECK(folder.relative(recording.start().error().message)
@@ -74,7 +86,8 @@ TEST_CASE("Starting twice and stopping twice are refused in words", "[threads]")
 
 TEST_CASE("A recording that begins after a restart has the new start's header", "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   const RecordingHeader again = header_of("pico", 20, 2);
   recording.note(boot_event(again, std::nullopt), again);
   REQUIRE(recording.start());
@@ -84,7 +97,8 @@ TEST_CASE("A recording that begins after a restart has the new start's header", 
 
 TEST_CASE("Marks stand in the recording, in their place", "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   REQUIRE(recording.start());
   REQUIRE(recording.record(rest_sample(1)));
   recording.note({.kind = "mark", .fields = {{"text", std::string("here")}}}, {});
@@ -100,7 +114,8 @@ TEST_CASE("Marks stand in the recording, in their place", "[threads]") {
 TEST_CASE("Another thread starts and stops while samples come: none is lost in between",
           "[threads]") {
   const TemporaryFolder folder;
-  RecordingSwitch recording = switch_in(folder);
+  RecordingSwitch recording(begin_in(folder));
+  recording.join(header_of("pico", 20, 1));
   std::atomic<bool> ended = false;
   std::thread sampling([&] {
     for (std::uint64_t seq = 0; !ended; ++seq) {
