@@ -9,6 +9,7 @@
 
 #include "common/gauss_newton.hpp"
 #include "host/calibration/response_change.hpp"
+#include "host/calibration/signal_motion.hpp"
 #include "host/calibration/static_calibration.hpp"
 #include "host/units.hpp"
 
@@ -21,40 +22,34 @@ struct RestGap {
   double gap_m = 0;       ///< by the rig's response
   double expected_m = 0;  ///< by the rig's geometry
   double sigma_m = 0;     ///< of `gap_m`
-  double motion_m = 0;    ///< RMS of what is not noise from sample to sample
-  double drift_m = 0;     ///< from the first third to the last
+  double swing_m = 0;     ///< RMS of what swings about as fast as the pendulum does
+  double drift_m = 0;     ///< of what changes more slowly
 };
 
-double drift_v(const std::vector<double>& volts) {
-  const auto third = static_cast<std::ptrdiff_t>(volts.size() / 3);
-  const std::vector<double> first(volts.begin(), volts.begin() + third);
-  const std::vector<double> last(volts.end() - third, volts.end());
-  return mean_signal(last).volts - mean_signal(first).volts;
-}
-
-/// Where samples are so rare that a swing looks like noise, all scatter may be a swing.
-bool rate_shows_swing(const Rig<double>& rig, const SignalLog& log) {
-  return log.acquisition.rate_hz > 8 * small_swing_hz(rig.pendulum);
+/// Takes the recording's motion into account, as gaps.
+void take_motion(const SignalMotion& motion, double swing_hz, double slope_m_per_v, RestGap& rest) {
+  const bool swings = motion.swing_hz > swing_hz / 2;
+  double& swing_or_drift_m = swings ? rest.swing_m : rest.drift_m;
+  swing_or_drift_m = std::max(swing_or_drift_m, motion.swing_v * slope_m_per_v);
+  if (!swings) {  // of a swing, the thirds may have unlike parts
+    rest.drift_m = std::max(rest.drift_m, std::abs(motion.drift_v) * slope_m_per_v);
+  }
 }
 
 tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<SignalLog>& logs,
                                       std::size_t sensor) {
-  constexpr std::size_t kFewest = 20;
   const Response<double>& response = rig.rig.responses[sensor];
   const std::string& name = rig.sensor_names[sensor];
+  const double swing_hz = small_swing_hz(rig.rig.pendulum);
   std::vector<double> volts;
-  double motion_v = 0;
-  double longest_drift_v = 0;
+  std::vector<SignalMotion> motions;
   for (const SignalLog& log : logs) {
     const std::vector<double> signals = log.signals(sensor, log.t_s.front(), log.t_s.back());
-    if (signals.size() < kFewest) {
+    if (signals.size() < kFewestForMotion) {
       return failure(fmt::format("{}: found {} samples of sensor {}, expected {} or more", log.path,
-                                 signals.size(), name, kFewest));
+                                 signals.size(), name, kFewestForMotion));
     }
-    const MeanSignal mean = mean_signal(signals);
-    motion_v =
-        std::max(motion_v, rate_shows_swing(rig.rig, log) ? mean.slow_scatter_v : mean.scatter_v);
-    longest_drift_v = std::max(longest_drift_v, std::abs(drift_v(signals)));
+    motions.push_back(motion_of(signals, log.acquisition.rate_hz, 2 * swing_hz));
     volts.insert(volts.end(), signals.begin(), signals.end());
   }
   RestGap rest{.mean = mean_signal(volts)};
@@ -69,14 +64,15 @@ tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<Sign
   rest.gap_m = *reading.gap_m;
   rest.expected_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, sensor);
   rest.sigma_m = rest.mean.standard_error_v() * slope_m_per_v;
-  rest.motion_m = motion_v * slope_m_per_v;
-  rest.drift_m = longest_drift_v * slope_m_per_v;
+  for (const SignalMotion& motion : motions) {
+    take_motion(motion, swing_hz, slope_m_per_v, rest);
+  }
   return rest;
 }
 
 /// Degrees that a gap's change means under this sensor.
 double degrees_of(const RigFile& rig, std::size_t sensor, double gap_m) {
-  return gap_m / rig.rig.layout.position_m[sensor].head<2>().norm() / kDegree;
+  return gap_m / tilt_arm_m(rig.rig.layout, sensor) / kDegree;
 }
 
 tl::expected<void, Error> require_still(const RigFile& rig, const std::vector<SignalLog>& logs,
@@ -88,11 +84,11 @@ tl::expected<void, Error> require_still(const RigFile& rig, const std::vector<Si
         "expected {:.2f} or less: {}",
         logs.front().path, rig.sensor_names[sensor], what, found_deg, kMostDeg, advice));
   };
-  if (const double deg = degrees_of(rig, sensor, rest.motion_m); deg > kMostDeg) {
+  if (const double deg = degrees_of(rig, sensor, rest.swing_m); deg > kMostDeg) {
     return refuse(deg, "it move (RMS)", "wait until it hangs still");
   }
   if (const double deg = degrees_of(rig, sensor, rest.drift_m); deg > kMostDeg) {
-    return refuse(deg, "it drift", "let the sensors warm up");
+    return refuse(deg, "it drift", "let it hang still, and the sensors warm up");
   }
   if (const double deg = degrees_of(rig, sensor, rest.sigma_m); deg > kMostDeg) {
     return refuse(deg, "a mean uncertain", "record for longer");

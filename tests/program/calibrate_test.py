@@ -113,6 +113,12 @@ class CalibrateTest(ProgramTest):
         self.assertIn("warning: sensor Sx: 4 of 12 points are nearer than 3.00 mm and left out: the "
                       "signal folds back at its peak at 2.40 mm", done.stderr)
 
+    def test_a_noisy_pendulum_that_hangs_still_is_at_rest(self):
+        for seed in (5, 6):  # of which noise was once taken for motion
+            still = self.record("still.csv", "--held", "--theta-deg", 0, "--seconds", 20,
+                                "--gap-noise", 50e-6, "--seed", seed)
+            run("calibrate", "rest", still, "--rig", TYPICAL, "-o", self.new, "--force")
+
     def test_a_swinging_pendulum_has_no_rest(self):
         swing = self.record("swing.csv", "--theta-deg", 5)
         done = run("calibrate", "rest", swing, "--rig", TYPICAL, "-o", self.new, status=1)
