@@ -182,7 +182,8 @@ tl::expected<std::vector<KnownPoint>, Error> read_points(const std::string& path
 }
 
 tl::expected<SensorPoints, Error> measure_points(const std::vector<KnownPoint>& points,
-                                                 const SensorLayout<double>& layout) {
+                                                 const SensorLayout<double>& layout,
+                                                 std::vector<std::string>& complaints) {
   constexpr std::size_t kFewest = 5;
   /// A signal that varies by more, beside its noise, is that of a disc that moves.
   constexpr double kStillShare = 0.01;
@@ -194,6 +195,7 @@ tl::expected<SensorPoints, Error> measure_points(const std::vector<KnownPoint>& 
       if (!log) {
         return tl::unexpected(log.error());
       }
+      complaints.insert(complaints.end(), log->complaints.begin(), log->complaints.end());
       logs.emplace(point.recording, std::move(*log));
     }
     for (std::size_t i = 0; i < layout.count; ++i) {

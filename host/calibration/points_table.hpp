@@ -44,9 +44,11 @@ struct SensorPoint {
 /// Each sensor's points.
 using SensorPoints = std::array<std::vector<SensorPoint>, kMaxSensors>;
 
-/// Reads the recordings and takes the means. The gaps of known angles are the layout's. Fails where
-/// a point has fewer than five samples of a sensor, or the disc moved meanwhile.
+/// Reads the recordings and takes the means; appends the recordings' complaints. The gaps of known
+/// angles are the layout's. Fails where a point has fewer than five samples of a sensor, or the
+/// disc moved meanwhile.
 [[nodiscard]] tl::expected<SensorPoints, Error> measure_points(
-    const std::vector<KnownPoint>& points, const SensorLayout<double>& layout);
+    const std::vector<KnownPoint>& points, const SensorLayout<double>& layout,
+    std::vector<std::string>& complaints);
 
 }  // namespace penduline

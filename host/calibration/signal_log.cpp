@@ -9,9 +9,25 @@
 #include <limits>
 #include <numeric>
 
+#include "common/continuity.hpp"
+#include "common/flags.hpp"
 #include "hal/replay/recording_reader.hpp"
+#include "host/flag_counts.hpp"
+#include "host/session/summary.hpp"
 
 namespace penduline {
+namespace {
+
+/// What is to be said against a sample, as a replay says it.
+Flags doubts(const Sample& sample, std::size_t sensor_count, Continuity& continuity) {
+  Flags flags = sample.flags | continuity.follow(sample).flags;
+  for (std::size_t i = 0; i < sensor_count; ++i) {
+    flags |= sample.has_reading(i) ? 0 : flag::kMissing;
+  }
+  return flags & ~flag::kOrdinary;
+}
+
+}  // namespace
 
 std::vector<double> SignalLog::signals(std::size_t sensor, double from_s, double to_s) const {
   std::vector<double> found;
@@ -35,6 +51,9 @@ tl::expected<SignalLog, Error> read_signals(const std::string& path, std::size_t
     return failure(fmt::format("{}: found {} sensors, expected the rig's {}", path,
                                log.acquisition.sensor_count, sensor_count));
   }
+  Summary summary(log.acquisition);
+  Continuity continuity(log.acquisition.longest_step_us());
+  FlagCounts flagged;
   Sample sample;
   while (true) {
     const auto more = reader->read(sample);
@@ -49,6 +68,8 @@ tl::expected<SignalLog, Error> read_signals(const std::string& path, std::size_t
       return failure(fmt::format("{}: the time goes back, expected one run without a restart",
                                  reader->place()));
     }
+    summary.count(sample);
+    flagged.count(doubts(sample, sensor_count, continuity));
     std::array<double, kMaxSensors> volts{};
     for (std::size_t i = 0; i < sensor_count; ++i) {
       const bool usable = sample.has_reading(i) && (sample.flags & flag::kSaturated) == 0;
@@ -62,6 +83,13 @@ tl::expected<SignalLog, Error> read_signals(const std::string& path, std::size_t
     return failure(fmt::format("{}: found no samples", path));
   }
   log.complaints = reader->complaints();
+  if (const std::string doubtful = flagged.text(); !doubtful.empty()) {
+    log.complaints.push_back(
+        fmt::format("{}: {} samples; flagged: {}", path, summary.samples(), doubtful));
+  }
+  if (const auto complaint = summary.rate_complaint()) {
+    log.complaints.push_back(fmt::format("{}: {}", path, *complaint));
+  }
   return log;
 }
 

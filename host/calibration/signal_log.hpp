@@ -20,7 +20,8 @@ struct SignalLog {
   std::vector<double> t_s;  ///< device seconds, rising
   /// Of each sensor; NaN where it is missing or saturated.
   std::vector<std::array<double, kMaxSensors>> volts;
-  std::vector<std::string> complaints;  ///< of the recording, in words
+  /// In words: what a replay with --strict would call doubtful, but for angles.
+  std::vector<std::string> complaints;
 
   /// One sensor's signals that there are, from `from_s` up to `to_s`.
   [[nodiscard]] std::vector<double> signals(std::size_t sensor, double from_s, double to_s) const;

@@ -78,6 +78,19 @@ tl::expected<bool, Error> write_calibration(
   return result->warnings.empty();
 }
 
+/// The outcome with what its recordings complained of first. Where it failed, that may be why: it
+/// is told at once.
+CalibrationOutcome with_complaints(const std::vector<std::string>& complaints,
+                                   CalibrationOutcome outcome) {
+  if (!outcome) {
+    std::ranges::for_each(complaints, log_warning);
+    return outcome;
+  }
+  std::vector<std::string>& warnings = outcome->warnings;
+  warnings.insert(warnings.begin(), complaints.begin(), complaints.end());
+  return outcome;
+}
+
 }  // namespace
 
 void add_calibration_options(CLI::App& command, CalibrationOptions& options) {
@@ -92,8 +105,9 @@ void add_calibration_options(CLI::App& command, CalibrationOptions& options) {
                   "Draw what was fitted and the residuals: .svg, .pdf or .png")
       ->type_name("FILE");
   command.add_flag("--force", options.force, "Write over a rig that is there, even the one read");
-  command.add_flag("--strict", options.strict,
-                   "End with status 3 where there was anything to warn of");
+  command.add_flag(
+      "--strict", options.strict,
+      "End with status 3 where there was anything to warn of, of the recordings or the outcome");
 }
 
 CLI::Option* add_recordings(CLI::App& command, CalibrationOptions& options,
@@ -118,10 +132,11 @@ CalibrationOutcome by_recordings(
   if (!logs) {
     return tl::unexpected(logs.error());
   }
+  std::vector<std::string> complaints;
   for (const SignalLog& log : *logs) {
-    std::ranges::for_each(log.complaints, log_warning);
+    complaints.insert(complaints.end(), log.complaints.begin(), log.complaints.end());
   }
-  return calibrate(*logs);
+  return with_complaints(complaints, calibrate(*logs));
 }
 
 CalibrationOutcome by_points(
@@ -138,11 +153,12 @@ CalibrationOutcome by_points(
   if (!points) {
     return tl::unexpected(points.error());
   }
-  const auto measured = measure_points(*points, rig.rig.layout);
+  std::vector<std::string> complaints;
+  const auto measured = measure_points(*points, rig.rig.layout, complaints);
   if (!measured) {
-    return tl::unexpected(measured.error());
+    return with_complaints(complaints, tl::unexpected(measured.error()));
   }
-  return calibrate(*measured).map([&](Calibration result) {
+  return with_complaints(complaints, calibrate(*measured)).map([&](Calibration result) {
     for (const KnownPoint& point : *points) {
       std::vector<std::string>& named = result.record.recordings;
       if (std::ranges::find(named, point.recording) == named.end()) {

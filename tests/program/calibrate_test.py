@@ -113,6 +113,27 @@ class CalibrateTest(ProgramTest):
         self.assertIn("warning: sensor Sx: 4 of 12 points are nearer than 3.00 mm and left out: the "
                       "signal folds back at its peak at 2.40 mm", done.stderr)
 
+    def test_strict_counts_what_the_recordings_complain_of_as_a_replay_does(self):
+        lines = self.record("whole.csv", "--held", "--theta-deg", 0).read_text().splitlines(True)
+        table = f"recording,theta1_deg,theta2_deg\n{self.folder}/rec.csv,0,0\n"
+        points = self.write("points.csv", table)
+        methods = (["rest", "rec.csv"], ["geometry", "--points", points])
+        for fault, warning in (([], None), (lines[50:53], "flagged: 1 dropout"),
+                               (lines[-1:], "")):
+            kept = [line for line in lines if line not in fault]
+            if fault == lines[-1:]:
+                kept.append(lines[-1][:8])  # cut off
+            recording = self.write("rec.csv", "".join(kept))
+            status = 3 if fault else 0
+            for method, *arguments in methods:
+                with self.subTest(method=method, warning=warning):
+                    arguments = [recording if each == "rec.csv" else each for each in arguments]
+                    done = run("calibrate", method, *arguments, "--rig", TYPICAL, "-o", self.new,
+                               "--force", "--strict", status=status)
+                    self.assertEqual("warning: " in done.stderr, status == 3, done.stderr)
+                    self.assertIn(warning or "", done.stderr)
+            run("replay", recording, "--rig", TYPICAL, "-o", "/dev/null", "--strict", status=status)
+
     def test_a_noisy_pendulum_that_hangs_still_is_at_rest(self):
         for seed in (5, 6):  # of which noise was once taken for motion
             still = self.record("still.csv", "--held", "--theta-deg", 0, "--seconds", 20,

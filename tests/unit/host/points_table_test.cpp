@@ -86,7 +86,8 @@ TEST_CASE("A point is the mean of its span, and its gap that of the tilt", "[cal
   std::ofstream(folder.path("p.csv"))
       << "recording,from_s,to_s,theta1_deg,theta2_deg\nrec.csv,0,0.45,0,0\nrec.csv,0.5,1,0,-5\n";
   const SensorLayout<double> layout = typical_rig().rig.layout;
-  const auto points = measure_points(*read_points(folder.path("p.csv"), "", 2), layout);
+  std::vector<std::string> complaints;
+  const auto points = measure_points(*read_points(folder.path("p.csv"), "", 2), layout, complaints);
   REQUIRE(points);
   CHECK(points->at(0)[0].gap_m == Approx(0.009));
   CHECK(points->at(0)[0].volts == Approx(0.66));
@@ -99,8 +100,9 @@ TEST_CASE("A disc that moves during a point is refused", "[calibration]") {
   const TemporaryFolder folder;
   put_recording(folder.path("rec.csv"), 13107, 19859);
   std::ofstream(folder.path("p.csv")) << "recording,gap_x_mm\nrec.csv,9\n";
-  const auto points =
-      measure_points(*read_points(folder.path("p.csv"), "", 2), typical_rig().rig.layout);
+  std::vector<std::string> complaints;
+  const auto points = measure_points(*read_points(folder.path("p.csv"), "", 2),
+                                     typical_rig().rig.layout, complaints);
   REQUIRE_FALSE(points);
   CHECK(points.error().message.find("p.csv:2: the signal of sensor 1 varies by ") !=
         std::string::npos);
