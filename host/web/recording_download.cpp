@@ -8,34 +8,34 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace penduline {
 namespace {
 
 constexpr int kNone = -1;
 
-/// Where the last line of the first `size` bytes ends; 0 where there is none.
-std::uint64_t end_of_lines(int file, std::uint64_t size) {
-  std::array<char, 4096> piece{};
-  while (size > 0) {
-    const std::uint64_t begin = size - std::min<std::uint64_t>(size, piece.size());
-    const auto got = ::pread(file, piece.data(), size - begin, static_cast<off_t>(begin));
-    if (got <= 0) {
-      return 0;
-    }
-    const std::string_view text(piece.data(), static_cast<std::size_t>(got));
-    if (const auto newline = text.rfind('\n'); newline != std::string_view::npos) {
-      return begin + newline + 1;
-    }
-    size = begin;
+/// Longer than any line of a recording, and soon read.
+constexpr std::size_t kMostBehindLine = 65536;
+
+/// Where the last line of the first `size` bytes ends; 0 where they are few and none ends. None
+/// where no line ends in the last 64 KiB of more, or they cannot be read.
+std::optional<std::uint64_t> end_of_lines(int file, std::uint64_t size) {
+  std::vector<char> tail(std::min<std::uint64_t>(size, kMostBehindLine));
+  const std::uint64_t begin = size - tail.size();
+  const auto got = ::pread(file, tail.data(), tail.size(), static_cast<off_t>(begin));
+  const std::string_view text(tail.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  const auto newline = text.rfind('\n');
+  if (newline != std::string_view::npos) {
+    return begin + newline + 1;
   }
-  return 0;
+  return got >= 0 && begin == 0 ? std::optional<std::uint64_t>(0) : std::nullopt;
 }
 
 }  // namespace
@@ -50,7 +50,14 @@ tl::expected<RecordingDownload, Error> RecordingDownload::open(const std::string
   if (!S_ISREG(status.st_mode)) {
     return failure(fmt::format("{}: found no ordinary file, expected a recording", path));
   }
-  download.size_ = end_of_lines(download.file_, static_cast<std::uint64_t>(status.st_size));
+  const auto end = end_of_lines(download.file_, static_cast<std::uint64_t>(status.st_size));
+  if (!end) {
+    return failure(
+        fmt::format("{}: found no line that ends in its last {} bytes, expected a "
+                    "recording",
+                    path, kMostBehindLine));
+  }
+  download.size_ = *end;
   return download;
 }
 

@@ -11,10 +11,12 @@
 
 namespace penduline {
 
-/// The lines that a file has when it is opened.
+/// The lines that a file has when it is opened. Opening it reads 64 KiB at most, and each `read` as
+/// much as it is asked for: a thread that serves others, too, waits for the disk no longer than
+/// that.
 class RecordingDownload {
  public:
-  /// Fails, naming the file, where it cannot be read.
+  /// Fails, naming the file, where it cannot be read, or no line ends in its last 64 KiB.
   static tl::expected<RecordingDownload, Error> open(const std::string& path);
   RecordingDownload(const RecordingDownload&) = delete;
   RecordingDownload(RecordingDownload&& other) noexcept;

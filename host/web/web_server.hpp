@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The web server: one thread for all connections, none of which can hold up another or the session.
+// The web server: one thread for all connections, none of which holds up another for longer than
+// the disk takes for 64 KiB of a download, or the session at all.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

@@ -42,6 +42,17 @@ TEST_CASE("What has no newline yet is not handed out", "[web]") {
   CHECK(with("").empty());
 }
 
+TEST_CASE("A file is not searched for a line's end for long", "[web]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("rec.csv", "a\n" + std::string(65535, 'b'));
+  CHECK(downloaded(path) == "a\n");
+  std::ofstream(path, std::ios::binary | std::ios::app) << 'b';
+  const auto endless = RecordingDownload::open(path);
+  REQUIRE_FALSE(endless);
+  CHECK(folder.relative(endless.error().message) ==
+        "rec.csv: found no line that ends in its last 65536 bytes, expected a recording");
+}
+
 TEST_CASE("Lines that come while it is handed out wait for the next time", "[web]") {
   const TemporaryFolder folder;
   const std::string path = folder.path("rec.csv");

@@ -3,6 +3,7 @@
 // nobody.
 #include "host/web/web_server.hpp"
 
+#include <array>
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -12,14 +13,19 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <istream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/host/headers.hpp"
 #include "tests/unit/host/rig_text.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace {
 
@@ -33,7 +39,7 @@ const RigFile kRig = parse_rig(std::string(kRigText), "rig.toml").value();
 /// A server of a page into which a thread puts a sample each millisecond, as a session would.
 class Watched {
  public:
-  explicit Watched(WebLimits limits = {}) {
+  explicit Watched(WebLimits limits = {}, std::optional<std::string> recording = {}) {
     auto listener = WebListener::open({.host = "127.0.0.1", .port = 0});
     REQUIRE(listener);
     const std::string url = (*listener)->url();
@@ -48,7 +54,7 @@ class Watched {
                                                   tl::expected<void, Error>())
                                                : tl::expected<void, Error>();
                        },
-                   .download = [] { return std::optional<std::string>(); }},
+                   .download = [recording = std::move(recording)] { return recording; }},
         limits);
     sampling_ = std::thread([this] { sample(); });
   }
@@ -118,6 +124,12 @@ class Client {
     std::istream stream(&received_);
     std::getline(stream, text);
     return text;
+  }
+  /// Takes what there is, up to 64 KiB; how much, 0 at the end.
+  std::size_t take() {
+    std::array<char, 65536> piece{};
+    boost::system::error_code ended;
+    return socket_.read_some(boost::asio::buffer(piece), ended);
   }
   /// Skips lines until one begins so; false where the connection ends before.
   bool finds(const std::string& begin) {
@@ -229,6 +241,45 @@ TEST_CASE("A slow action holds up nobody else", "[threads]") {
   CHECK(viewer.line() == "HTTP/1.1 200 OK\r");
   CHECK(std::chrono::steady_clock::now() - begin < 250ms);
   CHECK(acting.line() == "HTTP/1.1 200 OK\r");
+}
+
+TEST_CASE("The download of a large recording does not delay another viewer's events", "[threads]") {
+  // 8 GB that take no room on the disk: as fast as it can be taken, for longer than the test lasts.
+  const TemporaryFolder folder;
+  const std::string path = folder.write("rec.csv", "");
+  std::filesystem::resize_file(path, 8'000'000'000);
+  std::ofstream(path, std::ios::app) << '\n';
+  const Watched watched({}, path);
+  std::vector<std::unique_ptr<Client>> taking;
+  std::vector<std::thread> threads;
+  std::atomic<bool> ended = false;
+  std::atomic<std::uint64_t> taken = 0;
+  for (int i = 0; i < 4; ++i) {
+    taking.push_back(std::make_unique<Client>(watched));
+    taking.back()->ask("GET", "/recording");
+    threads.emplace_back([&, client = taking.back().get()] {
+      while (const std::size_t count = ended ? 0 : client->take()) {
+        taken += count;
+      }
+    });
+  }
+  Client viewer(watched);
+  viewer.ask("GET", "/live");
+  CHECK(viewer.finds("event: state"));
+  std::chrono::steady_clock::duration longest{};
+  for (int i = 0; i < 20; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(viewer.finds("event: points"));
+    longest = std::max(longest, std::chrono::steady_clock::now() - begin);
+  }
+  const std::uint64_t meanwhile = taken;
+  ended = true;
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  CHECK(meanwhile > 10'000'000);
+  CHECK(meanwhile < 32'000'000'000);
+  CHECK(longest < 500ms);
 }
 
 TEST_CASE("An action that fails says why", "[threads]") {
