@@ -59,10 +59,16 @@ class Report {
 
   [[nodiscard]] Health worst() const { return worst_; }
 
-  void finish() const {
-    fmt::print("{}\n", worst_ == Health::kGood
-                           ? fmt::format("all {} checks are good", count_)
-                           : fmt::format("{} of {} checks want something done", not_good_, count_));
+  void finish(bool interrupted) const {
+    if (interrupted) {
+      fmt::print(
+          "interrupted: what is left was not looked at; of {} checks {} want something done\n",
+          count_, not_good_);
+    } else if (worst_ == Health::kGood) {
+      fmt::print("all {} checks are good\n", count_);
+    } else {
+      fmt::print("{} of {} checks want something done\n", not_good_, count_);
+    }
   }
 
  private:
@@ -81,6 +87,25 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
                             .stop_requested = [&stop] { return stop.requested(); }});
 }
 
+/// What the samples say. Fails where none can be had; a stop is no failure.
+tl::expected<void, Error> listen(const DoctorOptions& options, const SourceUri& uri,
+                                 const std::optional<RigFile>& rig, const StopSignal& stop,
+                                 Report& report) {
+  const auto source = open_source(uri, stop);
+  if (!source) {
+    return stop.requested() ? tl::expected<void, Error>() : tl::unexpected(source.error());
+  }
+  const auto seen = survey(**source, options.seconds, stop);
+  if (!seen) {
+    return tl::unexpected(seen.error());
+  }
+  if (seen->samples > 0 || !stop.requested()) {
+    report.tell(check_stream(*seen));
+    report.tell(check_sensors(*seen, rig));
+  }
+  return {};
+}
+
 ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
   std::optional<RigFile> rig;
   if (!options.rig_path.empty()) {
@@ -96,18 +121,11 @@ ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
     report.tell(check_board(uri, stop));
   }
   if (report.worst() != Health::kBad && !stop.requested()) {
-    auto source = open_source(uri, stop);
-    if (!source) {
-      return log_failure(source.error());
+    if (const auto listened = listen(options, uri, rig, stop, report); !listened) {
+      return log_failure(listened.error());
     }
-    const auto seen = survey(**source, options.seconds, stop);
-    if (!seen) {
-      return log_failure(seen.error());
-    }
-    report.tell(check_stream(*seen));
-    report.tell(check_sensors(*seen, rig));
   }
-  report.finish();
+  report.finish(stop.requested());
   if (report.worst() == Health::kBad) {
     return ExitStatus::kFailed;
   }

@@ -95,14 +95,14 @@ Finding firmware_of(const wire::Hello& hello) {
 }
 
 /// The answer to AskStatus; none where it does not come.
-std::optional<wire::Status> ask_status(BoardConnection& connection) {
+std::optional<wire::Status> ask_status(BoardConnection& connection, const StopSignal& stop) {
   constexpr std::chrono::seconds kPatience{2};
   constexpr std::chrono::milliseconds kFrameWait{100};
   if (!connection.send(wire::AskStatus{})) {
     return std::nullopt;
   }
   const auto until = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < until) {
+  while (std::chrono::steady_clock::now() < until && !stop.requested()) {
     const auto frame = connection.next_frame(kFrameWait);
     if (!frame) {
       return std::nullopt;
@@ -165,6 +165,9 @@ Findings check_board(const SourceUri& uri, const StopSignal& stop) {
   }
   Findings findings = {{.subject = "board", .found = (*port)->name()}};
   auto connection = BoardConnection::open(std::move(*port), [&] { return stop.requested(); });
+  if (!connection && stop.requested()) {
+    return findings;
+  }
   if (!connection) {
     findings.push_back(bad("firmware", connection.error().message,
                            "press the board's reset, or unplug it; if it still says nothing, "
@@ -172,7 +175,10 @@ Findings check_board(const SourceUri& uri, const StopSignal& stop) {
     return findings;
   }
   findings.push_back(firmware_of(connection->hello()));
-  findings.push_back(health_of(ask_status(*connection)));
+  const auto status = ask_status(*connection, stop);
+  if (status || !stop.requested()) {
+    findings.push_back(health_of(status));
+  }
   return findings;
 }
 

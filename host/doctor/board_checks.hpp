@@ -9,7 +9,7 @@
 namespace penduline {
 
 /// Looks for the board of a URI (`serial:`, `usb:` or `auto`), opens it and asks who it is and how
-/// it fares. Ends with the first finding that is bad.
+/// it fares. Ends with the first finding that is bad, or where a stop is requested.
 [[nodiscard]] Findings check_board(const SourceUri& uri, const StopSignal& stop);
 
 }  // namespace penduline

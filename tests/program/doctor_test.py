@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # `penduline doctor`: what it says of a good set-up, and of the faults that people have.
 import os
+import pty
 import re
 import shutil
+import signal
 import subprocess
+import time
+import tty
 import unittest
 
 from program import PROGRAM, RIGS, ProgramTest, run
@@ -63,6 +67,36 @@ class DoctorTest(ProgramTest):
         self.assertEqual((health, text),
                          ("bad", f"{board.port}: you may not read and write it"))
         self.assertIn("dialout", advice)
+
+    def interrupted(self, source, *options, after_s):
+        """What it says that gets a Ctrl-C."""
+        process = subprocess.Popen([PROGRAM, "doctor", f"serial:{source}", *options],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(after_s)
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=30)
+        return subprocess.CompletedProcess(process.args, process.returncode, stdout, stderr)
+
+    @unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+    def test_ctrl_c_while_a_board_is_asked_is_no_fault_of_the_board(self):
+        silent, port = pty.openpty()
+        self.addCleanup(os.close, silent)
+        self.addCleanup(os.close, port)
+        tty.setraw(port)
+        done = self.interrupted(os.ttyname(port), "--strict", after_s=1)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(list(verdicts(done)), ["board"])
+        self.assertTrue(done.stdout.endswith(
+            "\ninterrupted: what is left was not looked at; of 1 checks 0 want something done\n"))
+
+    @unittest.skipIf(WITHOUT_PTS, "no pseudo-terminals: /dev/pts is not mounted")
+    def test_ctrl_c_while_it_listens_ends_with_what_was_heard(self):
+        board = SimBoard(self.folder / "port", *STILL)
+        self.addCleanup(board.close)
+        done = self.interrupted(board.port, "--seconds", "60", after_s=4)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("sensor 2 noise", verdicts(done))
+        self.assertIn("\ninterrupted: ", done.stdout)
 
     def examine(self, *simulation, rig=RIG, status=0):
         """A simulated recording looked over."""
