@@ -13,7 +13,9 @@
 #include "host/cli/log.hpp"
 #include "host/doctor/board_checks.hpp"
 #include "host/doctor/signal_checks.hpp"
+#include "host/doctor/stream_checks.hpp"
 #include "host/doctor/survey.hpp"
+#include "host/doctor/typed_commands.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/board_source.hpp"
 #include "host/source/port_finder.hpp"
@@ -89,8 +91,8 @@ tl::expected<std::unique_ptr<Source>, Error> open_source(const SourceUri& uri,
 
 /// What the samples say. Fails where none can be had; a stop is no failure.
 tl::expected<void, Error> listen(const DoctorOptions& options, const SourceUri& uri,
-                                 const std::optional<RigFile>& rig, const StopSignal& stop,
-                                 Report& report) {
+                                 const std::optional<RigFile>& rig, const TypedNames& names,
+                                 const StopSignal& stop, Report& report) {
   const auto source = open_source(uri, stop);
   if (!source) {
     return stop.requested() ? tl::expected<void, Error>() : tl::unexpected(source.error());
@@ -100,8 +102,8 @@ tl::expected<void, Error> listen(const DoctorOptions& options, const SourceUri& 
     return tl::unexpected(seen.error());
   }
   if (seen->samples > 0 || !stop.requested()) {
-    report.tell(check_stream(*seen));
-    report.tell(check_sensors(*seen, rig));
+    report.tell(check_stream(*seen, names));
+    report.tell(check_sensors(*seen, rig, names));
   }
   return {};
 }
@@ -115,13 +117,15 @@ ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
     }
     rig = std::move(*read);
   }
+  const TypedNames names{
+      .source = options.uri, .rig = options.rig_path, .recorded = !uri.is_board()};
   const StopSignal stop;
   Report report;
   if (uri.is_board()) {
-    report.tell(check_board(uri, stop));
+    report.tell(check_board(uri, names, stop));
   }
   if (report.worst() != Health::kBad && !stop.requested()) {
-    if (const auto listened = listen(options, uri, rig, stop, report); !listened) {
+    if (const auto listened = listen(options, uri, rig, names, stop, report); !listened) {
       return log_failure(listened.error());
     }
   }

@@ -41,6 +41,19 @@ Finding no_board(std::string reason) {
                    "flashed once (scripts/flash pico)");
 }
 
+/// A command for each of several boards; "" where there are not several.
+std::string each_board(const std::vector<SerialDevice>& devices) {
+  std::string commands;
+  int count = 0;
+  for (const SerialDevice& device : devices) {
+    if (device.is_penduline()) {
+      commands += fmt::format("{}'penduline doctor auto:{}'", count++ > 0 ? " or " : "",
+                              device.identity.serial_number);
+    }
+  }
+  return count > 1 ? commands : "";
+}
+
 /// The path of the port that `uri` means, or why there is none. Empty for a board without one.
 tl::expected<std::string, Finding> port_path(const SourceUri& uri) {
   if (uri.kind == SourceUri::Kind::kSerial) {
@@ -52,10 +65,10 @@ tl::expected<std::string, Finding> port_path(const SourceUri& uri) {
   const std::vector<SerialDevice> devices = serial_devices();
   AutoChoice choice = choose_board(devices, uri.serial_number);
   if (choice.path.empty()) {
-    const auto boards = std::ranges::count_if(devices, &SerialDevice::is_penduline);
-    return tl::unexpected(boards > 1 ? bad("board", std::move(choice.reason),
-                                           "say which one: penduline doctor auto:SERIAL")
-                                     : no_board(std::move(choice.reason)));
+    const std::string each = each_board(devices);
+    return tl::unexpected(each.empty()
+                              ? no_board(std::move(choice.reason))
+                              : bad("board", std::move(choice.reason), "say which one: " + each));
   }
   return choice.path;
 }
@@ -114,7 +127,7 @@ std::optional<wire::Status> ask_status(BoardConnection& connection, const StopSi
   return std::nullopt;
 }
 
-Finding health_of(const std::optional<wire::Status>& status) {
+Finding health_of(const std::optional<wire::Status>& status, const TypedNames& names) {
   if (!status) {
     return {.health = Health::kDoubtful,
             .subject = "health",
@@ -142,14 +155,14 @@ Finding health_of(const std::optional<wire::Status>& status) {
     return {.health = Health::kDoubtful,
             .subject = "health",
             .found = "the rig that it keeps is damaged, and ignored",
-            .advice = "store it again: penduline run --upload-rig"};
+            .advice = "store it again: " + names.run("--upload-rig gn")};
   }
   return {.subject = "health", .found = found};
 }
 
 }  // namespace
 
-Findings check_board(const SourceUri& uri, const StopSignal& stop) {
+Findings check_board(const SourceUri& uri, const TypedNames& names, const StopSignal& stop) {
   const auto path = port_path(uri);
   if (!path) {
     return {path.error()};
@@ -177,7 +190,7 @@ Findings check_board(const SourceUri& uri, const StopSignal& stop) {
   findings.push_back(firmware_of(connection->hello()));
   const auto status = ask_status(*connection, stop);
   if (status || !stop.requested()) {
-    findings.push_back(health_of(status));
+    findings.push_back(health_of(status, names));
   }
   return findings;
 }

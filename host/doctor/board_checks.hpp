@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/doctor/finding.hpp"
+#include "host/doctor/typed_commands.hpp"
 #include "host/session/stop_signal.hpp"
 #include "host/source/source_uri.hpp"
 
@@ -10,6 +11,7 @@ namespace penduline {
 
 /// Looks for the board of a URI (`serial:`, `usb:` or `auto`), opens it and asks who it is and how
 /// it fares. Ends with the first finding that is bad, or where a stop is requested.
-[[nodiscard]] Findings check_board(const SourceUri& uri, const StopSignal& stop);
+[[nodiscard]] Findings check_board(const SourceUri& uri, const TypedNames& names,
+                                   const StopSignal& stop);
 
 }  // namespace penduline

@@ -20,8 +20,6 @@ constexpr double kGlaringAmbient = 0.6;
 constexpr double kUnsteadyAmbient = 0.02;
 constexpr double kWeakSignal = 0.03;  // less than 100 mV of 3.3 V
 constexpr double kNoSignal = 0.003;
-/// Of the samples.
-constexpr double kMostSaturated = 0.01;
 /// A disc at rest that far from where the rig has it, seen as an angle.
 constexpr double kMostZeroDeg = 0.3;
 /// Motion of the gap, seen as an angle, up to which the pendulum hangs still.
@@ -38,10 +36,12 @@ std::string percent(double share) {
 /// One sensor's light, in shares of the ADC's range and volts.
 class SensorChecks {
  public:
-  SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig)
+  SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig,
+               const TypedNames& names)
       : reference_v_(survey.acquisition.reference_v),
         sensor_(sensor),
         rig_(rig),
+        names_(names),
         name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
         signal_(mean_signal(survey.sensors[sensor].signal_v)),
         ambient_(mean_signal(survey.sensors[sensor].ambient_v)) {}
@@ -75,7 +75,8 @@ class SensorChecks {
       add(Health::kBad, "ambient light", "no reading at all", "check that the sensor is connected");
     } else if (ambient_.volts == 0 && ambient_.scatter_v == 0) {
       add(Health::kDoubtful, "ambient light", "not measured: the dark phase always reads 0",
-          "switch the emitters (--emitter switched), or the room's light counts as signal");
+          "switch the emitters, or the room's light counts as signal: " +
+              names_.run("--emitter switched"));
     } else if (share > kGlaringAmbient) {
       add(Health::kBad, "ambient light", found, shade);
     } else if (share > kBrightAmbient) {
@@ -146,8 +147,9 @@ class SensorChecks {
     } else if (gap_m > kMostNoiseRatio * told_m) {
       add(Health::kDoubtful, "noise",
           fmt::format("{}, where the rig says {:.1f}", found, told_m / kMicrometre),
-          "let it hang still and run 'penduline calibrate rest', which tells the rig its noise; "
-          "then look for loose wires and a noisy supply");
+          "look for loose wires and a noisy supply; if it stays, tell the rig its noise: let it "
+          "hang still, " +
+              names_.calibrate("rest", "20 s"));
     } else {
       add(Health::kGood, "noise", std::move(found));
     }
@@ -164,7 +166,8 @@ class SensorChecks {
           folded ? "move the sensor away from the disc: nearer than the peak two gaps give one "
                    "signal"
                  : "is this the rig file of this pendulum? If so, move the sensor to the gap it "
-                   "says, or calibrate anew ('penduline calibrate swing')");
+                   "says, or calibrate anew: let it swing, " +
+                       names_.calibrate("swing", "60 s"));
       return;
     }
     const double slope_m_per_v = std::abs(response.slope_m_per_v(signal_.volts));
@@ -182,7 +185,7 @@ class SensorChecks {
     } else if (std::abs(zero_deg) > kMostZeroDeg) {
       add(Health::kDoubtful, "gap",
           fmt::format("{}: its zero is off by {:.2f} deg", found, zero_deg),
-          "if it hangs free and still, zero it: 'penduline calibrate rest'");
+          "if nothing touches the pendulum, zero it: " + names_.calibrate("rest", "20 s"));
     } else {
       add(Health::kGood, "gap",
           fmt::format("{}: zero within {:.2f} deg", found, std::abs(zero_deg)));
@@ -192,67 +195,17 @@ class SensorChecks {
   double reference_v_;
   std::size_t sensor_;
   const std::optional<RigFile>& rig_;
+  const TypedNames& names_;
   std::string name_;
   MeanSignal signal_;
   MeanSignal ambient_;
   Findings findings_;
 };
 
-Finding check_rate(const Survey& survey) {
-  if (!survey.rate_complaint.empty()) {
-    return {.health = Health::kDoubtful,
-            .subject = "rate",
-            .found = survey.rate_complaint,
-            .advice = "a long cable, a hub or a busy computer may hold it up; try another port"};
-  }
-  if (survey.lost + survey.late > 0) {
-    return {.health = Health::kDoubtful,
-            .subject = "rate",
-            .found = fmt::format("of {} samples {} lost, {} late", survey.samples + survey.lost,
-                                 survey.lost, survey.late),
-            .advice = "try another port or cable, or a lower --rate"};
-  }
-  return {.subject = "rate",
-          .found = fmt::format("{} samples at {} Hz, none lost, none late", survey.samples,
-                               survey.acquisition.rate_hz)};
-}
-
-Finding check_saturation(const Survey& survey) {
-  const double share = static_cast<double>(survey.saturated) / static_cast<double>(survey.samples);
-  return {.health = survey.saturated == 0    ? Health::kGood
-                    : share < kMostSaturated ? Health::kDoubtful
-                                             : Health::kBad,
-          .subject = "saturation",
-          .found = survey.saturated == 0
-                       ? "none"
-                       : fmt::format("{} of {} samples reach the end of the ADC's range",
-                                     survey.saturated, survey.samples),
-          .advice = survey.saturated == 0
-                        ? ""
-                        : "take a smaller load resistor or less emitter current "
-                          "(docs/hardware.md), a larger gap, or shade the sensor"};
-}
-
 }  // namespace
 
-Findings check_stream(const Survey& survey) {
-  if (survey.samples == 0) {
-    return {{.health = Health::kBad,
-             .subject = "rate",
-             .found = "no sample came",
-             .advice = "unplug the board and plug it in again; if that does not help, flash it"}};
-  }
-  Findings findings = {check_rate(survey), check_saturation(survey)};
-  for (const std::string& complaint : survey.complaints) {
-    findings.push_back({.health = Health::kDoubtful,
-                        .subject = "stream",
-                        .found = complaint,
-                        .advice = "try another cable or port"});
-  }
-  return findings;
-}
-
-Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig) {
+Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
+                       const TypedNames& names) {
   Findings findings;
   if (survey.samples == 0) {
     return findings;
@@ -268,7 +221,7 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig) 
   }
   const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
   for (std::size_t i = 0; i < count; ++i) {
-    for (Finding& finding : SensorChecks(survey, i, fitting).findings()) {
+    for (Finding& finding : SensorChecks(survey, i, fitting, names).findings()) {
       findings.push_back(std::move(finding));
     }
   }

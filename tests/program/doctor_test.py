@@ -3,6 +3,7 @@
 import os
 import pty
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -24,6 +25,11 @@ def verdicts(done):
             r"^(good|doubtful|bad) +([^:]+): (.*)\n(?: +-> (.*)\n)?", done.stdout, re.MULTILINE):
         found[subject] = (health, text, advice)
     return found
+
+
+def commands(advice):
+    """The commands of the program that an advice names."""
+    return re.findall(r"'(penduline [^']*)'", advice)
 
 
 class DoctorTest(ProgramTest):
@@ -97,6 +103,34 @@ class DoctorTest(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("sensor 2 noise", verdicts(done))
         self.assertIn("\ninterrupted: ", done.stdout)
+
+    def assert_can_be_typed(self, advice, count):
+        """Its commands are right ones: without a board and files they fail, but not of their options."""
+        rig = shutil.copy(RIG, self.folder / "rig.toml")
+        found = commands(advice)
+        self.assertEqual(len(found), count, advice)
+        for command in found:
+            arguments = shlex.split(command)[1:]
+            if arguments[0] == "run":
+                arguments += ["--once"]
+            self.assertTrue(rig.exists())
+            run(*(each.replace("auto", "serial:/dev/nowhere") for each in arguments), status=1,
+                cwd=self.folder)
+
+    def test_commands_in_advice_can_be_typed_as_they_stand(self):
+        recording, _ = self.simulate("--seconds", "10", *STILL, rig=RIG.name)
+        lines = recording.read_text().splitlines(True)
+        rows = [re.sub(r"^(\d+,\d+,\d+),\d+,(\d+),\d+,\d+", r"\1,0,\2,0,8", line)
+                for line in lines]  # no ambient light, and all late
+        dark = self.write("dark.csv", "".join(rows))
+        found = verdicts(run("doctor", f"file:{dark}"))
+        self.assertIn("--rate 10'", found["rate"][2])
+        self.assert_can_be_typed(found["rate"][2], 1)
+        self.assertIn("--emitter switched'", found["sensor 1 ambient light"][2])
+        self.assert_can_be_typed(found["sensor 1 ambient light"][2], 1)
+        found = self.examine("--held", "--theta-deg", "1", "--gap-noise", "0.0005")
+        self.assert_can_be_typed(found["sensor Sx gap"][2], 2)
+        self.assert_can_be_typed(found["sensor Sx noise"][2], 2)
 
     def examine(self, *simulation, rig=RIG, status=0):
         """A simulated recording looked over."""

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "host/doctor/signal_checks.hpp"
+#include "host/doctor/stream_checks.hpp"
+#include "host/doctor/typed_commands.hpp"
 #include "tests/unit/host/rig_text.hpp"
 
 namespace penduline::test {
@@ -37,7 +39,7 @@ Finding about(const Findings& findings, const std::string& subject) {
 }
 
 TEST_CASE("A good stream is good, in numbers", "[doctor]") {
-  const Findings findings = check_stream(good_survey());
+  const Findings findings = check_stream(good_survey(), {});
   CHECK(about(findings, "rate").health == Health::kGood);
   CHECK(about(findings, "rate").found == "100 samples at 20 Hz, none lost, none late");
   CHECK(about(findings, "saturation").found == "none");
@@ -45,8 +47,8 @@ TEST_CASE("A good stream is good, in numbers", "[doctor]") {
 
 TEST_CASE("A stream without samples is bad, and its sensors are not judged", "[doctor]") {
   const Survey none{.acquisition = {.rate_hz = 20}};
-  CHECK(about(check_stream(none), "rate").health == Health::kBad);
-  CHECK(check_sensors(none, std::nullopt).empty());
+  CHECK(about(check_stream(none, {}), "rate").health == Health::kBad);
+  CHECK(check_sensors(none, std::nullopt, {}).empty());
 }
 
 TEST_CASE("Lost and late samples, a wrong rate and complaints are doubtful", "[doctor]") {
@@ -54,20 +56,20 @@ TEST_CASE("Lost and late samples, a wrong rate and complaints are doubtful", "[d
   survey.lost = 3;
   survey.late = 2;
   survey.complaints = {"port: 4 damaged frames"};
-  CHECK(about(check_stream(survey), "rate").found == "of 103 samples 3 lost, 2 late");
-  CHECK(about(check_stream(survey), "rate").health == Health::kDoubtful);
-  CHECK(about(check_stream(survey), "stream").found == "port: 4 damaged frames");
+  CHECK(about(check_stream(survey, {}), "rate").found == "of 103 samples 3 lost, 2 late");
+  CHECK(about(check_stream(survey, {}), "rate").health == Health::kDoubtful);
+  CHECK(about(check_stream(survey, {}), "stream").found == "port: 4 damaged frames");
   survey.rate_complaint = "the samples come at 18 Hz";
-  CHECK(about(check_stream(survey), "rate").found == "the samples come at 18 Hz");
+  CHECK(about(check_stream(survey, {}), "rate").found == "the samples come at 18 Hz");
 }
 
 TEST_CASE("Some saturated samples are doubtful, more than 1 % are bad", "[doctor]") {
   Survey survey = good_survey();
   survey.samples = 1000;
   survey.saturated = 9;
-  CHECK(about(check_stream(survey), "saturation").health == Health::kDoubtful);
+  CHECK(about(check_stream(survey, {}), "saturation").health == Health::kDoubtful);
   survey.saturated = 10;
-  CHECK(about(check_stream(survey), "saturation").health == Health::kBad);
+  CHECK(about(check_stream(survey, {}), "saturation").health == Health::kBad);
 }
 
 TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]") {
@@ -77,7 +79,7 @@ TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]")
                std::pair{2.0, Health::kBad});
   Survey survey = good_survey();
   survey.sensors[1] = steady(1.0, ambient_v);
-  const Findings findings = check_sensors(survey, std::nullopt);
+  const Findings findings = check_sensors(survey, std::nullopt, {});
   CHECK(about(findings, "sensor 1 ambient light").health == Health::kGood);
   CHECK(about(findings, "sensor 2 ambient light").health == health);
 }
@@ -85,7 +87,7 @@ TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]")
 TEST_CASE("Ambient light that is never measured is doubtful", "[doctor]") {
   Survey survey = good_survey();
   std::ranges::fill(survey.sensors[0].ambient_v, 0.0);
-  CHECK(about(check_sensors(survey, std::nullopt), "sensor 1 ambient light").found ==
+  CHECK(about(check_sensors(survey, std::nullopt, {}), "sensor 1 ambient light").found ==
         "not measured: the dark phase always reads 0");
 }
 
@@ -93,7 +95,7 @@ TEST_CASE("No signal is bad, a weak one doubtful, and says what to look at", "[d
   Survey survey = good_survey();
   survey.sensors[0] = steady(0.005, 0.1);
   survey.sensors[1] = steady(0.05, 0.1);
-  const Findings findings = check_sensors(survey, std::nullopt);
+  const Findings findings = check_sensors(survey, std::nullopt, {});
   CHECK(about(findings, "sensor 1 signal").health == Health::kBad);
   CHECK(about(findings, "sensor 1 signal").advice.find("phone's camera") != std::string::npos);
   CHECK(about(findings, "sensor 2 signal").health == Health::kDoubtful);
@@ -102,7 +104,7 @@ TEST_CASE("No signal is bad, a weak one doubtful, and says what to look at", "[d
 TEST_CASE("A sensor of which every sample is saturated has no signal", "[doctor]") {
   Survey survey = good_survey();
   survey.sensors[0].signal_v.clear();
-  CHECK(about(check_sensors(survey, std::nullopt), "sensor 1 signal").found ==
+  CHECK(about(check_sensors(survey, std::nullopt, {}), "sensor 1 signal").found ==
         "no reading without saturation");
 }
 
@@ -111,9 +113,28 @@ TEST_CASE("Noise is told in volts; of a pendulum that moves it is not", "[doctor
   for (std::size_t i = 0; i < survey.sensors[1].signal_v.size(); ++i) {
     survey.sensors[1].signal_v[i] += 0.1 * std::sin(0.4 * static_cast<double>(i));
   }
-  const Findings findings = check_sensors(survey, std::nullopt);
+  const Findings findings = check_sensors(survey, std::nullopt, {});
   CHECK(about(findings, "sensor 1 noise").found == "1.00 mV RMS from sample to sample");
   CHECK(about(findings, "sensor 2 noise").found == "not looked at, for the pendulum moves");
+}
+
+TEST_CASE("Advice names commands as they are typed, with the user's names", "[doctor]") {
+  const TypedNames names{.source = "serial:/dev/ttyACM0", .rig = "my rig.toml"};
+  CHECK(names.run("--rate 10") ==
+        "'penduline run serial:/dev/ttyACM0 --rig \"my rig.toml\" --rate 10'");
+  CHECK(TypedNames{}.again("--seconds 10") == "'penduline doctor auto --seconds 10'");
+  CHECK(TypedNames{.source = "file:rec.csv", .recorded = true}.again() ==
+        "'penduline run auto --rig rig.toml --record still.csv -o /dev/null', then 'penduline "
+        "doctor file:still.csv'");
+  CHECK(TypedNames{.rig = "a.toml"}.calibrate("rest", "20 s") ==
+        "'penduline run auto --rig a.toml --record still.csv -o /dev/null' for 20 s (Ctrl-C ends "
+        "it), then 'penduline calibrate rest still.csv --rig a.toml -o new.toml'");
+  Survey survey = good_survey();
+  survey.late = 1;
+  CHECK_THAT(about(check_stream(survey, names), "rate").advice, Catch::Contains("--rate 10'"));
+  std::ranges::fill(survey.sensors[0].ambient_v, 0.0);
+  CHECK_THAT(about(check_sensors(survey, std::nullopt, names), "sensor 1 ambient light").advice,
+             Catch::EndsWith("toml\" --emitter switched'"));
 }
 
 TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "[doctor]") {
@@ -127,7 +148,7 @@ TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "
   const auto of_first = [&](double signal_v, double noise_v) {
     survey.sensors[0] = steady(signal_v, 0.1, noise_v);
     survey.sensors[1] = survey.sensors[0];
-    return check_sensors(survey, rig);
+    return check_sensors(survey, rig, {});
   };
   const std::string gap = "sensor " + rig.sensor_names[0] + " gap";
   const std::string noise = "sensor " + rig.sensor_names[0] + " noise";
@@ -145,7 +166,7 @@ TEST_CASE("A signal that the rig's response does not have is bad", "[doctor]") {
   rig.rig.responses[0].nearest_m = 0.015;
   Survey survey = good_survey();
   survey.sensors[0] = steady(2.9, 0.1);  // 13.6 mm
-  CHECK(about(check_sensors(survey, rig), "sensor " + rig.sensor_names[0] + " gap").health ==
+  CHECK(about(check_sensors(survey, rig, {}), "sensor " + rig.sensor_names[0] + " gap").health ==
         Health::kBad);
 }
 
@@ -155,7 +176,7 @@ TEST_CASE("A rig of another number of sensors is bad, and the light is judged al
   Survey survey = good_survey();
   survey.acquisition.sensor_count = 3;
   survey.sensors[2] = steady(1.5, 0.1);
-  const Findings findings = check_sensors(survey, rig);
+  const Findings findings = check_sensors(survey, rig, {});
   CHECK(about(findings, "rig").found == "the rig has 2 sensors, the samples have 3");
   CHECK(about(findings, "sensor 3 signal").health == Health::kGood);
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is good, doubtful and bad of a stream.
+#include "host/doctor/stream_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace penduline {
+namespace {
+
+/// As boards sample.
+constexpr double kSlowestBoardHz = 1;
+/// Of the samples.
+constexpr double kMostSaturated = 0.01;
+
+Finding check_rate(const Survey& survey, const TypedNames& names) {
+  if (!survey.rate_complaint.empty()) {
+    return {.health = Health::kDoubtful,
+            .subject = "rate",
+            .found = survey.rate_complaint,
+            .advice = "a long cable, a hub or a busy computer may hold it up; try another port"};
+  }
+  if (survey.lost + survey.late > 0) {
+    const double slower_hz = std::max(survey.acquisition.rate_hz / 2, kSlowestBoardHz);
+    return {.health = Health::kDoubtful,
+            .subject = "rate",
+            .found = fmt::format("of {} samples {} lost, {} late", survey.samples + survey.lost,
+                                 survey.lost, survey.late),
+            .advice = fmt::format("try another port or cable, or sample more slowly: {}",
+                                  names.run(fmt::format("--rate {}", slower_hz)))};
+  }
+  return {.subject = "rate",
+          .found = fmt::format("{} samples at {} Hz, none lost, none late", survey.samples,
+                               survey.acquisition.rate_hz)};
+}
+
+Finding check_saturation(const Survey& survey) {
+  const double share = static_cast<double>(survey.saturated) / static_cast<double>(survey.samples);
+  return {.health = survey.saturated == 0    ? Health::kGood
+                    : share < kMostSaturated ? Health::kDoubtful
+                                             : Health::kBad,
+          .subject = "saturation",
+          .found = survey.saturated == 0
+                       ? "none"
+                       : fmt::format("{} of {} samples reach the end of the ADC's range",
+                                     survey.saturated, survey.samples),
+          .advice = survey.saturated == 0
+                        ? ""
+                        : "take a smaller load resistor or less emitter current "
+                          "(docs/hardware.md), a larger gap, or shade the sensor"};
+}
+
+}  // namespace
+
+Findings check_stream(const Survey& survey, const TypedNames& names) {
+  if (survey.samples == 0) {
+    return {{.health = Health::kBad,
+             .subject = "rate",
+             .found = "no sample came",
+             .advice = "unplug the board and plug it in again; if that does not help, flash it"}};
+  }
+  Findings findings = {check_rate(survey, names), check_saturation(survey)};
+  for (const std::string& complaint : survey.complaints) {
+    findings.push_back({.health = Health::kDoubtful,
+                        .subject = "stream",
+                        .found = complaint,
+                        .advice = "try another cable or port"});
+  }
+  return findings;
+}
+
+}  // namespace penduline

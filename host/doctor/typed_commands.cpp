@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Putting commands together.
+#include "host/doctor/typed_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace penduline {
+namespace {
+
+std::string spaced(std::string_view options) {
+  return options.empty() ? "" : fmt::format(" {}", options);
+}
+
+}  // namespace
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+      "0123456789_-./:,+@%=";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string quoted = "\"";
+  for (const char c : word) {
+    quoted += std::string_view("\"\\$`").find(c) != std::string_view::npos ? "\\" : "";
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string TypedNames::run(std::string_view options) const {
+  return fmt::format("'penduline run {} --rig {}{}'", recorded ? "auto" : shell_word(source),
+                     shell_word(needed_rig()), spaced(options));
+}
+
+std::string TypedNames::again(std::string_view options) const {
+  const std::string by_rig = rig.empty() ? "" : " --rig " + shell_word(rig);
+  return recorded ? fmt::format("{}, then 'penduline doctor file:still.csv{}'",
+                                run("--record still.csv -o /dev/null"), by_rig)
+                  : fmt::format("'penduline doctor {}{}{}'", shell_word(source), by_rig,
+                                spaced(options));
+}
+
+std::string TypedNames::calibrate(std::string_view method, std::string_view duration) const {
+  const std::string recording = fmt::format("{}.csv", method == "rest" ? "still" : method);
+  return fmt::format(
+      "{} for {} (Ctrl-C ends it), then 'penduline calibrate {} {} --rig {} -o new.toml'",
+      run(fmt::format("--record {} -o /dev/null", recording)), duration, method, recording,
+      shell_word(needed_rig()));
+}
+
+}  // namespace penduline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands in advice, such that they can be typed as they stand.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace penduline {
+
+/// What the user calls the board and the rig file.
+struct TypedNames {
+  std::string source = "auto";
+  std::string rig{};      ///< "": not given; where a command needs one, it says rig.toml
+  bool recorded = false;  ///< `source` is a recording, not a board
+
+  /// A run of the board: "'penduline run auto --rig rig.toml --rate 10'".
+  [[nodiscard]] std::string run(std::string_view options) const;
+  /// This check again: of a board by `options`, else of a new recording.
+  [[nodiscard]] std::string again(std::string_view options = "") const;
+  /// Recording, and calibrating by it: "'penduline run auto ...' for 20 s (Ctrl-C ends it), then
+  /// 'penduline calibrate rest ...'".
+  [[nodiscard]] std::string calibrate(std::string_view method, std::string_view duration) const;
+  [[nodiscard]] std::string needed_rig() const { return rig.empty() ? "rig.toml" : rig; }
+};
+
+/// A word as a shell takes it: in double quotes where it must be.
+[[nodiscard]] std::string shell_word(std::string_view word);
+
+}  // namespace penduline
