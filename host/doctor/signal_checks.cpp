@@ -4,11 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "common/disc_plane.hpp"
 #include "host/calibration/signal_log.hpp"
+#include "host/calibration/signal_motion.hpp"
+#include "host/doctor/rest_check.hpp"
 #include "host/units.hpp"
 
 namespace penduline {
@@ -22,8 +25,6 @@ constexpr double kWeakSignal = 0.03;  // less than 100 mV of 3.3 V
 constexpr double kNoSignal = 0.003;
 /// A disc at rest that far from where the rig has it, seen as an angle.
 constexpr double kMostZeroDeg = 0.3;
-/// Motion of the gap, seen as an angle, up to which the pendulum hangs still.
-constexpr double kMostMotionDeg = 0.1;
 /// Noise beside what the rig says.
 constexpr double kMostNoiseRatio = 2;
 constexpr double kPercent = 100;
@@ -36,20 +37,25 @@ std::string percent(double share) {
 /// One sensor's light, in shares of the ADC's range and volts.
 class SensorChecks {
  public:
+  /// `still`: zero and noise can be judged.
   SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig,
-               const TypedNames& names)
+               const TypedNames& names, bool still)
       : reference_v_(survey.acquisition.reference_v),
         sensor_(sensor),
         rig_(rig),
         names_(names),
+        still_(still),
         name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
         signal_(mean_signal(survey.sensors[sensor].signal_v)),
+        noise_v_(std::min(signal_.scatter_v, noise_of(survey.sensors[sensor].signal_v))),
         ambient_(mean_signal(survey.sensors[sensor].ambient_v)) {}
 
   Findings findings() {
     check_ambient();
     if (check_signal()) {
-      check_noise();
+      if (still_) {
+        check_noise();
+      }
       if (rig_) {
         check_gap();
       }
@@ -116,35 +122,23 @@ class SensorChecks {
     return true;
   }
 
-  /// What is new from sample to sample; with a pendulum that moves, its steps are part of it.
-  [[nodiscard]] double noise_v() const {
-    return std::sqrt(std::max(0.0, signal_.scatter_v * signal_.scatter_v -
-                                       signal_.slow_scatter_v * signal_.slow_scatter_v));
-  }
-
-  /// Whether most of the scatter is no noise.
-  [[nodiscard]] bool moves() const { return signal_.slow_scatter_v > noise_v(); }
-
   void check_noise() {
-    if (moves()) {
-      add(Health::kGood, "noise", "not looked at, for the pendulum moves");
-      return;
-    }
-    const double noise = noise_v();
-    std::string found = fmt::format("{:.2f} mV RMS from sample to sample", noise / kMilli);
+    std::string found = fmt::format("{:.2f} mV RMS from sample to sample", noise_v_ / kMilli);
     if (!rig_) {
       add(Health::kGood, "noise", std::move(found));
       return;
     }
     const Response<double>& response = rig_->rig.responses[sensor_];
     const double slope_m_per_v = std::abs(response.slope_m_per_v(signal_.volts));
-    const double gap_m = noise * slope_m_per_v;
+    const double gap_m = noise_v_ * slope_m_per_v;
     const double told_m =
         std::hypot(rig_->rig.noise[sensor_].gap_m, rig_->rig.noise[sensor_].volts * slope_m_per_v);
-    found += fmt::format(", {:.1f} um of gap", gap_m / kMicrometre);
     if (!std::isfinite(gap_m)) {
-      add(Health::kDoubtful, "noise", fmt::format("{:.2f} mV RMS", noise / kMilli));
-    } else if (gap_m > kMostNoiseRatio * told_m) {
+      add(Health::kDoubtful, "noise", fmt::format("{:.2f} mV RMS", noise_v_ / kMilli));
+      return;
+    }
+    found += fmt::format(", {:.1f} um of gap", gap_m / kMicrometre);
+    if (gap_m > kMostNoiseRatio * told_m) {
       add(Health::kDoubtful, "noise",
           fmt::format("{}, where the rig says {:.1f}", found, told_m / kMicrometre),
           "look for loose wires and a noisy supply; if it stays, tell the rig its noise: let it "
@@ -170,18 +164,13 @@ class SensorChecks {
                        names_.calibrate("swing", "60 s"));
       return;
     }
-    const double slope_m_per_v = std::abs(response.slope_m_per_v(signal_.volts));
     const double arm_m = rig_->rig.layout.position_m[sensor_].head<2>().norm();
-    const double motion_deg =
-        moves() ? signal_.slow_scatter_v * slope_m_per_v / arm_m / kDegree : 0;
     const double rest_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig_->rig.layout, sensor_);
-    const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
     const std::string found = fmt::format("{:.3f} mm on average, {:.3f} at rest by the rig",
                                           *reading.gap_m / kMillimetre, rest_m / kMillimetre);
-    if (motion_deg > kMostMotionDeg) {
-      add(Health::kGood, "gap",
-          fmt::format("{}; the pendulum moves ({:.1f} deg RMS), so its zero is not checked", found,
-                      motion_deg));
+    const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
+    if (!still_) {
+      add(Health::kGood, "gap", found);
     } else if (std::abs(zero_deg) > kMostZeroDeg) {
       add(Health::kDoubtful, "gap",
           fmt::format("{}: its zero is off by {:.2f} deg", found, zero_deg),
@@ -196,8 +185,10 @@ class SensorChecks {
   std::size_t sensor_;
   const std::optional<RigFile>& rig_;
   const TypedNames& names_;
+  bool still_;
   std::string name_;
   MeanSignal signal_;
+  double noise_v_;
   MeanSignal ambient_;
   Findings findings_;
 };
@@ -220,8 +211,13 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
                         .advice = "give the rig file of this pendulum"});
   }
   const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
+  const auto rest = check_rest(survey, fitting, names);
+  if (rest) {
+    findings.push_back(*rest);
+  }
+  const bool still = rest && rest->health == Health::kGood;
   for (std::size_t i = 0; i < count; ++i) {
-    for (Finding& finding : SensorChecks(survey, i, fitting, names).findings()) {
+    for (Finding& finding : SensorChecks(survey, i, fitting, names, still).findings()) {
       findings.push_back(std::move(finding));
     }
   }

@@ -128,6 +128,8 @@ class DoctorTest(ProgramTest):
         self.assert_can_be_typed(found["rate"][2], 1)
         self.assertIn("--emitter switched'", found["sensor 1 ambient light"][2])
         self.assert_can_be_typed(found["sensor 1 ambient light"][2], 1)
+        few = self.write("few.csv", "".join(lines[:20]))
+        self.assert_can_be_typed(verdicts(run("doctor", f"file:{few}"))["pendulum"][2], 2)
         found = self.examine("--held", "--theta-deg", "1", "--gap-noise", "0.0005")
         self.assert_can_be_typed(found["sensor Sx gap"][2], 2)
         self.assert_can_be_typed(found["sensor Sx noise"][2], 2)
@@ -153,10 +155,16 @@ class DoctorTest(ProgramTest):
         self.assertRegex(text, r"its zero is off by -?0\.\d\d deg")
         self.assertIn("penduline calibrate rest", advice)
 
-    def test_a_pendulum_that_swings_is_not_held_against_its_zero(self):
-        found = self.examine()
-        self.assertIn("the pendulum moves", found["sensor Sx gap"][1])
-        self.assertEqual(found["sensor Sx noise"][1], "not looked at, for the pendulum moves")
+    def test_a_pendulum_that_swings_is_held_against_neither_zero_nor_noise(self):
+        for degrees in (0.3, 10):
+            found = self.examine("--theta-deg", degrees)
+            health, text, advice = found["pendulum"]
+            self.assertEqual(health, "doubtful")
+            self.assertRegex(text, r"^it is not at rest: sensor S[xy] sees it swing by \d\.\d\d deg "
+                             r"RMS at 0\.\d\d Hz, so neither its zero nor its noise can be judged$")
+            self.assertIn("wait until it hangs still", advice)
+            self.assertNotIn("zero", found["sensor Sx gap"][1])
+            self.assertNotIn("sensor Sx noise", found)
 
     def test_more_noise_than_the_rig_says(self):
         health, text, advice = self.examine(*STILL, "--gap-noise", "0.0005")["sensor Sx noise"]

@@ -108,14 +108,75 @@ TEST_CASE("A sensor of which every sample is saturated has no signal", "[doctor]
         "no reading without saturation");
 }
 
-TEST_CASE("Noise is told in volts; of a pendulum that moves it is not", "[doctor]") {
+/// Lets a sensor's signal go up and down with 1.3 Hz.
+void swing(SensorSurvey& sensor, double amplitude_v) {
+  for (std::size_t i = 0; i < sensor.signal_v.size(); ++i) {
+    sensor.signal_v[i] += amplitude_v * std::sin(0.4 * static_cast<double>(i));
+  }
+}
+
+bool has(const Findings& findings, const std::string& subject) {
+  return std::ranges::find(findings, subject, &Finding::subject) != findings.end();
+}
+
+TEST_CASE("Noise is told in volts; where one sensor sees motion, of none", "[doctor]") {
   Survey survey = good_survey();
-  for (std::size_t i = 0; i < survey.sensors[1].signal_v.size(); ++i) {
-    survey.sensors[1].signal_v[i] += 0.1 * std::sin(0.4 * static_cast<double>(i));
+  const Findings still = check_sensors(survey, std::nullopt, {});
+  CHECK(about(still, "pendulum").found ==
+        "hangs still: no sensor sees it move by 0.5 % of its signal");
+  CHECK(about(still, "sensor 1 noise").found == "1.00 mV RMS from sample to sample");
+  swing(survey.sensors[1], 0.1);
+  const Findings moving = check_sensors(survey, std::nullopt, {});
+  CHECK(about(moving, "pendulum").health == Health::kDoubtful);
+  CHECK(about(moving, "pendulum").found ==
+        "it is not at rest: sensor 2 sees it swing by 4.57 % of its signal RMS at 1.30 Hz, so "
+        "neither its zero nor its noise can be judged");
+  CHECK_THAT(about(moving, "pendulum").advice, Catch::Contains("'penduline doctor auto'"));
+  CHECK_FALSE(has(moving, "sensor 1 noise"));
+  CHECK_FALSE(has(moving, "sensor 2 noise"));
+}
+
+TEST_CASE("Whether it hangs still is one verdict, and does not depend on the noise", "[doctor]") {
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  const double rms_deg = GENERATE(0.05, 0.2);
+  const double noise_deg = GENERATE(0.001, 0.3);
+  const double v_per_deg = 0.02 * 0.01745329 / 0.006;
+  Survey survey = good_survey();
+  survey.sensors[0] = steady(1.8333, 0.1, noise_deg * v_per_deg);
+  survey.sensors[1] = steady(1.8333, 0.1, noise_deg * v_per_deg);
+  swing(survey.sensors[0], rms_deg * std::sqrt(2) * v_per_deg);
+  const Findings findings = check_sensors(survey, rig, {.rig = "rig.toml"});
+  const bool still = rms_deg < 0.1;
+  CHECK(about(findings, "pendulum").health == (still ? Health::kGood : Health::kDoubtful));
+  CHECK(has(findings, "sensor Sx noise") == still);
+  CHECK((about(findings, "sensor Sx gap").found.find("zero") != std::string::npos) == still);
+  CHECK((about(findings, "sensor Sy gap").found.find("zero") != std::string::npos) == still);
+}
+
+TEST_CASE("A pendulum that turns slowly is not at rest", "[doctor]") {
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  Survey survey = good_survey();
+  for (std::size_t i = 0; i < 100; ++i) {  // 0.2 deg in five seconds
+    survey.sensors[1].signal_v[i] += 0.2 * 0.0582 * 1.5 * static_cast<double>(i) / 100;
+  }
+  const Findings findings = check_sensors(survey, rig, {});
+  CHECK_THAT(about(findings, "pendulum").found,
+             Catch::Contains("sensor Sy sees it turn or drift by 0.20 deg"));
+}
+
+TEST_CASE("Of a few samples neither rest nor noise is told, but what to do", "[doctor]") {
+  Survey survey = good_survey();
+  survey.acquisition.rate_hz = 1;
+  survey.samples = 5;
+  for (SensorSurvey& sensor : survey.sensors) {
+    sensor.signal_v.resize(std::min<std::size_t>(sensor.signal_v.size(), 5));
   }
   const Findings findings = check_sensors(survey, std::nullopt, {});
-  CHECK(about(findings, "sensor 1 noise").found == "1.00 mV RMS from sample to sample");
-  CHECK(about(findings, "sensor 2 noise").found == "not looked at, for the pendulum moves");
+  CHECK(about(findings, "pendulum").health == Health::kDoubtful);
+  CHECK_THAT(about(findings, "pendulum").found, Catch::StartsWith("found 5 unsaturated samples"));
+  CHECK(about(findings, "pendulum").advice ==
+        "look for longer while it hangs still: 'penduline doctor auto --seconds 40'");
+  CHECK_FALSE(has(findings, "sensor 1 noise"));
 }
 
 TEST_CASE("Advice names commands as they are typed, with the user's names", "[doctor]") {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sensor that moves most decides.
+#include "host/doctor/rest_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/dynamics.hpp"
+#include "host/calibration/signal_log.hpp"
+#include "host/calibration/signal_motion.hpp"
+#include "host/units.hpp"
+
+namespace penduline {
+namespace {
+
+/// Motion, RMS of a swing or the whole of a drift, up to which the pendulum hangs still.
+constexpr double kMostMotionDeg = 0.1;
+/// The same without a rig, as a share of the signal: some 0.1 deg at gaps of millimetres.
+constexpr double kMostMotionShare = 0.005;
+/// Faster than pendulums swing whose rig is not known: 1 cm of length.
+constexpr double kFastestSwingHz = 5;
+
+/// One sensor's motion, in the unit that its bound has.
+struct SeenMotion {
+  double swing = 0;
+  double swing_hz = 0;
+  double drift = 0;
+  double most = 0;
+  std::string_view unit;
+
+  [[nodiscard]] double share_of_most() const { return std::max(swing, drift) / most; }
+};
+
+SeenMotion seen(const SignalMotion& motion, double unit_v, double most, std::string_view unit) {
+  return {.swing = motion.swing_v / unit_v,
+          .swing_hz = motion.swing_hz,
+          .drift = std::abs(motion.drift_v) / unit_v,
+          .most = most,
+          .unit = unit};
+}
+
+SeenMotion motion_of_sensor(const Survey& survey, std::size_t sensor,
+                            const std::optional<RigFile>& rig) {
+  const std::vector<double>& volts = survey.sensors[sensor].signal_v;
+  const double fastest_hz = rig ? 2 * small_swing_hz(rig->rig.pendulum) : kFastestSwingHz;
+  const SignalMotion motion = motion_of(volts, survey.acquisition.rate_hz, fastest_hz);
+  const double mean_v = mean_signal(volts).volts;
+  if (rig) {
+    const double slope_m_per_v = std::abs(rig->rig.responses[sensor].slope_m_per_v(mean_v));
+    const double v_per_deg = kDegree * tilt_arm_m(rig->rig.layout, sensor) / slope_m_per_v;
+    if (std::isfinite(v_per_deg) && v_per_deg > 0) {
+      return seen(motion, v_per_deg, kMostMotionDeg, "deg");
+    }
+  }
+  return seen(motion, std::abs(mean_v) / 100, 100 * kMostMotionShare, "% of its signal");
+}
+
+std::string name_of(const std::optional<RigFile>& rig, std::size_t sensor) {
+  return rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1);
+}
+
+Finding too_few(const Survey& survey, const std::string& name, std::size_t count,
+                const TypedNames& names) {
+  const double seconds =
+      std::clamp(std::ceil(2 * kFewestForMotion / survey.acquisition.rate_hz), 10.0, 3600.0);
+  return {.health = Health::kDoubtful,
+          .subject = "pendulum",
+          .found = fmt::format("found {} unsaturated samples of sensor {}, expected {} or more: "
+                               "whether it hangs still, its zero and its noise cannot be told",
+                               count, name, kFewestForMotion),
+          .advice = fmt::format("look for longer while it hangs still: {}",
+                                names.again(fmt::format("--seconds {}", seconds)))};
+}
+
+Finding moving(const SeenMotion& motion, const std::string& name, const TypedNames& names) {
+  const bool swings = motion.swing >= motion.drift;
+  const std::string how =
+      swings ? fmt::format("swing by {:.2f} {} RMS at {:.2f} Hz", motion.swing, motion.unit,
+                           motion.swing_hz)
+             : fmt::format("turn or drift by {:.2f} {}", motion.drift, motion.unit);
+  return {.health = Health::kDoubtful,
+          .subject = "pendulum",
+          .found = fmt::format("it is not at rest: sensor {} sees it {}, so neither its zero nor "
+                               "its noise can be judged",
+                               name, how),
+          .advice = fmt::format(
+              "{}; then {}",
+              swings ? "stop it by hand, keep draughts away and wait until it hangs still"
+                     : "let it hang still, untouched, and the sensors warm up for some minutes",
+              names.again())};
+}
+
+}  // namespace
+
+std::optional<Finding> check_rest(const Survey& survey, const std::optional<RigFile>& rig,
+                                  const TypedNames& names) {
+  std::optional<SeenMotion> most;
+  std::size_t moves_most = 0;
+  for (std::size_t i = 0; i < survey.acquisition.sensor_count; ++i) {
+    const std::size_t count = survey.sensors[i].signal_v.size();
+    if (count > 0 && count < kFewestForMotion) {
+      return too_few(survey, name_of(rig, i), count, names);
+    }
+    const SeenMotion motion = motion_of_sensor(survey, i, rig);
+    if (count > 0 && (!most || motion.share_of_most() > most->share_of_most())) {
+      most = motion;
+      moves_most = i;
+    }
+  }
+  if (!most) {
+    return std::nullopt;
+  }
+  if (most->share_of_most() > 1) {
+    return moving(*most, name_of(rig, moves_most), names);
+  }
+  return Finding{.subject = "pendulum",
+                 .found = fmt::format("hangs still: no sensor sees it move by {:.1f} {}",
+                                      most->most, most->unit)};
+}
+
+}  // namespace penduline
