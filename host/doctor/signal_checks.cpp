@@ -123,6 +123,13 @@ class SensorChecks {
   }
 
   void check_noise() {
+    if (noise_v_ == 0) {
+      add(Health::kDoubtful, "noise",
+          fmt::format("it reads {:.4f} V in each of {} samples", signal_.volts, signal_.count),
+          "tilt the pendulum by hand and look again: where the signal changes, its noise is less "
+          "than the ADC's steps, and all is well; else check the sensor's wires");
+      return;
+    }
     std::string found = fmt::format("{:.2f} mV RMS from sample to sample", noise_v_ / kMilli);
     if (!rig_) {
       add(Health::kGood, "noise", std::move(found));
@@ -134,7 +141,10 @@ class SensorChecks {
     const double told_m =
         std::hypot(rig_->rig.noise[sensor_].gap_m, rig_->rig.noise[sensor_].volts * slope_m_per_v);
     if (!std::isfinite(gap_m)) {
-      add(Health::kDoubtful, "noise", fmt::format("{:.2f} mV RMS", noise_v_ / kMilli));
+      add(Health::kDoubtful, "noise",
+          fmt::format("{}; the rig's response does not say which gap {:.3f} V is", found,
+                      signal_.volts),
+          "do first what stands below of this sensor's gap");
       return;
     }
     found += fmt::format(", {:.1f} um of gap", gap_m / kMicrometre);

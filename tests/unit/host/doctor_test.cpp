@@ -179,6 +179,29 @@ TEST_CASE("Of a few samples neither rest nor noise is told, but what to do", "[d
   CHECK_FALSE(has(findings, "sensor 1 noise"));
 }
 
+TEST_CASE("A sensor that always reads the same is doubtful, and says how to find out", "[doctor]") {
+  Survey survey = good_survey();
+  std::ranges::fill(survey.sensors[0].signal_v, 1.5);
+  const Finding noise = about(check_sensors(survey, std::nullopt, {}), "sensor 1 noise");
+  CHECK(noise.health == Health::kDoubtful);
+  CHECK(noise.found == "it reads 1.5000 V in each of 100 samples");
+  CHECK_THAT(noise.advice, Catch::StartsWith("tilt the pendulum by hand"));
+}
+
+TEST_CASE("Noise that means no gap says what to do first", "[doctor]") {
+  RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  // A peak at 2 V, above which the square root has no value.
+  rig.rig.responses[0].model =
+      InverseSquareResponse<double>{.a_v_m2 = 1e-4, .b_m = 0.001, .c_v = 2};
+  rig.rig.noise[0] = {};
+  Survey survey = good_survey();
+  const Finding noise = about(check_sensors(survey, rig, {}), "sensor Sx noise");
+  CHECK(noise.health == Health::kDoubtful);
+  CHECK_THAT(noise.found, Catch::Contains("does not say which gap 1.500 V is"));
+  CHECK_FALSE(noise.advice.empty());
+  CHECK(about(check_sensors(survey, rig, {}), "sensor Sx gap").health == Health::kBad);
+}
+
 TEST_CASE("Advice names commands as they are typed, with the user's names", "[doctor]") {
   const TypedNames names{.source = "serial:/dev/ttyACM0", .rig = "my rig.toml"};
   CHECK(names.run("--rate 10") ==
