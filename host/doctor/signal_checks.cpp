@@ -178,6 +178,16 @@ class SensorChecks {
     const double rest_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig_->rig.layout, sensor_);
     const std::string found = fmt::format("{:.3f} mm on average, {:.3f} at rest by the rig",
                                           *reading.gap_m / kMillimetre, rest_m / kMillimetre);
+    if (arm_m < kOnAxisM) {
+      add(Health::kDoubtful, "gap",
+          fmt::format("{}; by the rig it is {:.1f} mm from the axis, where a tilt does not change "
+                      "the gap",
+                      found, arm_m / kMillimetre),
+          fmt::format("if it is there, move it off the axis (docs/hardware.md); else correct its "
+                      "position_m in {}",
+                      names_.needed_rig()));
+      return;
+    }
     const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
     if (!still_) {
       add(Health::kGood, "gap", found);

@@ -202,6 +202,18 @@ TEST_CASE("Noise that means no gap says what to do first", "[doctor]") {
   CHECK(about(check_sensors(survey, rig, {}), "sensor Sx gap").health == Health::kBad);
 }
 
+TEST_CASE("A sensor on the axis is told to be moved, and its noise is judged", "[doctor]") {
+  RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  rig.rig.layout.position_m[1] = {0, 0, 0};
+  const Findings findings = check_sensors(good_survey(), rig, {.rig = "my.toml"});
+  CHECK(about(findings, "pendulum").health == Health::kGood);
+  const Finding gap = about(findings, "sensor Sy gap");
+  CHECK(gap.health == Health::kDoubtful);
+  CHECK_THAT(gap.found, Catch::EndsWith("by the rig it is 0.0 mm from the axis, where a tilt does "
+                                        "not change the gap"));
+  CHECK_THAT(gap.advice, Catch::EndsWith("else correct its position_m in my.toml"));
+}
+
 TEST_CASE("Advice names commands as they are typed, with the user's names", "[doctor]") {
   const TypedNames names{.source = "serial:/dev/ttyACM0", .rig = "my rig.toml"};
   CHECK(names.run("--rate 10") ==
