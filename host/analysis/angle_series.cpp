@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/pipeline.hpp"
 #include "hal/replay/cells.hpp"
@@ -114,6 +115,13 @@ tl::expected<bool, Error> is_angle_table(const std::string& path) {
   return table->names().find("theta") != std::string::npos;
 }
 
+Error no_angles(const std::string& path) {
+  return {one_line(
+      fmt::format("{}: found no angles; a recording needs --rig, a table the columns t_s with "
+                  "theta1_rad and theta2_rad, or theta_rad",
+                  path))};
+}
+
 tl::expected<AngleColumns, Error> find_angle_columns(const NumberTable& table) {
   const auto time = table.column("t_s");
   const auto only = table.column("theta_rad");
@@ -139,18 +147,9 @@ tl::expected<AngleSeries, Error> read_angle_table(const std::string& path) {
     return tl::unexpected(columns.error());
   }
   AngleSeries series{.planar = !columns->theta2};
-  while (true) {
-    const auto more = table->next();
-    if (!more) {
-      return tl::unexpected(more.error());
-    }
-    if (!*more) {
-      return series;
-    }
-    if (const auto taken = take_row(*table, *columns, series); !taken) {
-      return tl::unexpected(taken.error());
-    }
-  }
+  return table->for_each_row([&] { return take_row(*table, *columns, series); }).map([&] {
+    return std::move(series);
+  });
 }
 
 tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,

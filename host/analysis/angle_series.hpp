@@ -47,6 +47,9 @@ struct AngleSeries {
 /// file cannot be read.
 [[nodiscard]] tl::expected<bool, Error> is_angle_table(const std::string& path);
 
+/// Why a file without angles is refused where no rig makes angles of its readings.
+[[nodiscard]] Error no_angles(const std::string& path);
+
 /// Where a table has its angles.
 struct AngleColumns {
   std::size_t t_s = 0;

@@ -66,6 +66,22 @@ tl::expected<bool, Error> NumberTable::next() {
   return true;
 }
 
+tl::expected<void, Error> NumberTable::for_each_row(
+    const std::function<tl::expected<void, Error>()>& take) {
+  while (true) {
+    const auto more = next();
+    if (!more) {
+      return tl::unexpected(more.error());
+    }
+    if (!*more) {
+      return {};
+    }
+    if (auto taken = take(); !taken) {
+      return taken;
+    }
+  }
+}
+
 bool NumberTable::is_empty(std::size_t column) const {
   return is_missing(cells_[column]);
 }

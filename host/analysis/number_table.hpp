@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ class NumberTable {
   /// Goes to the next row; false at the end. What stands behind the last newline may have lost
   /// digits and is no row. Fails where reading does, and on a row of another length.
   tl::expected<bool, Error> next();
+  /// Goes through all rows to come and calls `take` on each. Fails as `next` does, or as `take`.
+  tl::expected<void, Error> for_each_row(const std::function<tl::expected<void, Error>()>& take);
 
   /// Whether a cell of the row says that there is no number.
   [[nodiscard]] bool is_empty(std::size_t column) const;

@@ -43,10 +43,7 @@ tl::expected<AngleSeries, Error> read_angles(const AnalyzeOptions& options,
     return tl::unexpected(table.error());
   }
   if (options.rig_path.empty()) {
-    return *table ? read_angle_table(options.path)
-                  : failure(fmt::format("{}: found no angles; a recording needs --rig, a table the "
-                                        "columns t_s with theta1_rad and theta2_rad, or theta_rad",
-                                        options.path));
+    return *table ? read_angle_table(options.path) : tl::unexpected(no_angles(options.path));
   }
   const auto rig = load_rig(options.rig_path);
   if (!rig) {
@@ -69,8 +66,8 @@ tl::expected<void, Error> write_report(const AnalyzeOptions& options,
 }
 
 ExitStatus analyze(const AnalyzeOptions& options) {
-  if (options.path == "-") {
-    return log_failure({"found the standard input, expected a file: it is read more than once"});
+  if (const auto file = require_file(options.path); !file) {
+    return log_failure(file.error());
   }
   const std::array<std::string, 4> paths{options.path, options.rig_path, options.output_path,
                                          options.plot_path};

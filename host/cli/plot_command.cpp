@@ -109,10 +109,10 @@ bool tell_doubtful(const std::vector<EstimateSeries>& inputs) {
 }
 
 ExitStatus plot(const PlotOptions& options) {
-  if (std::ranges::count(options.paths, "-") > 0) {
-    return log_failure({"found the standard input, expected a file: it is read more than once"});
-  }
   for (const std::string& path : options.paths) {
+    if (const auto file = require_file(path); !file) {
+      return log_failure(file.error());
+    }
     const std::vector<std::string> paths{path, options.rig_path, options.output_path};
     if (const auto distinct = require_distinct_files(paths); !distinct) {
       return log_failure(distinct.error());

@@ -168,8 +168,8 @@ std::string text_of(const std::string& path) {
 }
 
 ExitStatus report(const ReportOptions& options) {
-  if (options.path == "-") {
-    return log_failure({"found the standard input, expected a file: it is read more than once"});
+  if (const auto file = require_file(options.path); !file) {
+    return log_failure(file.error());
   }
   const std::array<std::string, 3> paths{options.path, options.rig_path, options.output_path};
   if (const auto distinct = require_distinct_files(paths); !distinct) {

@@ -86,6 +86,13 @@ tl::expected<void, Error> TextFile::write_piece() {
   return {};
 }
 
+tl::expected<void, Error> require_file(const std::string& path) {
+  if (path == "-") {
+    return failure("found the standard input, expected a file: it is read more than once");
+  }
+  return {};
+}
+
 tl::expected<void, Error> require_distinct_files(std::span<const std::string> paths) {
   const auto same_file = [](const std::string& one, const std::string& other) {
     std::error_code failed;

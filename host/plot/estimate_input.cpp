@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "host/analysis/number_table.hpp"
 #include "host/session/session.hpp"
@@ -93,18 +94,9 @@ tl::expected<EstimateSeries, Error> read_estimate_table(const std::string& path)
   }
   const Places places = find_places(*table, *angles);
   EstimateSeries series{.planar = !angles->theta2};
-  while (true) {
-    const auto more = table->next();
-    if (!more) {
-      return tl::unexpected(more.error());
-    }
-    if (!*more) {
-      return series;
-    }
-    if (const auto taken = take_row(*table, places, series); !taken) {
-      return tl::unexpected(taken.error());
-    }
-  }
+  return table->for_each_row([&] { return take_row(*table, places, series); }).map([&] {
+    return std::move(series);
+  });
 }
 
 tl::expected<EstimateSeries, Error> estimates_of_recording(
@@ -140,10 +132,7 @@ tl::expected<EstimateSeries, Error> read_estimates(
     return tl::unexpected(is_table.error());
   }
   if (!*is_table && !input.rig) {
-    return failure(
-        fmt::format("{}: found no angles; a recording needs --rig, a table the columns "
-                    "t_s with theta1_rad and theta2_rad, or theta_rad",
-                    path));
+    return tl::unexpected(no_angles(path));
   }
   auto series = *is_table ? read_estimate_table(path)
                           : estimates_of_recording(path, *input.rig, input.estimator, warn);
