@@ -63,6 +63,10 @@ RecordingEvent boot_event(const RecordingHeader& header, std::optional<std::int6
   return event;
 }
 
+bool connected_after(const RecordingEvent& event, bool before) {
+  return event.kind == event::kConnected || (before && event.kind != event::kDisconnected);
+}
+
 std::string event_line(const RecordingEvent& event) {
   std::string line = fmt::format("{}{{ kind = {}", kEventStart, toml_quoted(event.kind));
   if (event.utc_us) {

@@ -82,6 +82,9 @@ inline constexpr std::array kEventKinds = {
 [[nodiscard]] RecordingEvent boot_event(const RecordingHeader& header,
                                         std::optional<std::int64_t> utc_us);
 
+/// Whether the board is connected after an event, where it was or was not before.
+[[nodiscard]] bool connected_after(const RecordingEvent& event, bool before);
+
 /// What a line that is an event begins with.
 inline constexpr std::string_view kEventStart = "# event = ";
 

@@ -80,8 +80,7 @@ void SessionLines::attempted(BoardAttempt attempt) {
 
 std::vector<RecordingEvent> SessionLines::turn(const SessionTurn& turn) {
   for (const RecordingEvent& event : turn.events) {
-    connected_ =
-        event.kind == event::kConnected || (connected_ && event.kind != event::kDisconnected);
+    connected_ = connected_after(event, connected_);
   }
   const auto now = std::chrono::steady_clock::now();
   if (light_) {

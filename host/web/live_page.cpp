@@ -93,10 +93,7 @@ void LivePage::keep_rows() {
 
 void LivePage::take_notes() {
   for (const LiveNote& note : news_.notes) {
-    const std::string& kind = note.event.kind;
-    if (kind == event::kConnected || kind == event::kDisconnected) {
-      state_.connected = kind == event::kConnected;
-    }
+    state_.connected = connected_after(note.event, state_.connected);
     const auto host_us = note.event.get<std::int64_t>("host_us").value_or(note.host_us);
     notes_.push_back(event_text("note", note_json(note.event, rows_.time().at_host_s(host_us))));
     if (notes_.size() > kMostNotes) {

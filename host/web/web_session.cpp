@@ -76,8 +76,7 @@ void WebSession::join(SessionParts& parts) {
       if (event.kind == event::kPong && turn.clock) {
         feed_.tell(*turn.clock);
       }
-      connected_ =
-          event.kind == event::kConnected || (connected_ && event.kind != event::kDisconnected);
+      connected_ = connected_after(event, connected_);
     }
     std::vector<RecordingEvent> events = before ? before(turn) : std::vector<RecordingEvent>();
     for (RecordingEvent& mark : marks_.take(connected_ ? turn.clock : std::nullopt)) {
