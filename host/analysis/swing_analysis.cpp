@@ -212,6 +212,17 @@ void describe_period(SwingAnalysis& analysis) {
 
 }  // namespace
 
+SwingEllipse SwingAnalysis::first_swing() const {
+  const TiltPoint& zero = friction.chosen.model.zero;
+  SwingEllipse swing;
+  swing.t_s = series.t_s.front() + small_period_s.value / 2;
+  swing.semi_major_rad = semi_major_rad;
+  swing.semi_minor_rad = semi_minor_rad;
+  swing.orientation_rad = orientation_rad.value_or(Measured{});
+  swing.centre = tilt_point(zero.x_rad, zero.y_rad);
+  return swing;
+}
+
 tl::expected<SwingAnalysis, Error> analyze_swing(const AngleSeries& series,
                                                  const AnalysisSettings& settings) {
   const auto span = span_to_analyse(series, settings);

@@ -62,6 +62,9 @@ struct SwingAnalysis {
   Measured energy_at_start_per_mgl;  ///< of the model
   Measured energy_at_end_per_mgl;
   Comparison comparison;
+
+  /// The first swing by the model, about where the pendulum rests.
+  [[nodiscard]] SwingEllipse first_swing() const;
 };
 
 /// Fails, in words, where there is no free swing or no model fits it.

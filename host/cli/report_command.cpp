@@ -6,13 +6,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hal/replay/line_reader.hpp"
 #include "host/analysis/analysis_report.hpp"
 #include "host/analysis/angle_series.hpp"
 #include "host/cli/commands.hpp"
@@ -111,26 +110,12 @@ tl::expected<Recorded, Error> read_recording(const ReportOptions& options, const
   if (result.error) {
     return tl::unexpected(*result.error);
   }
-  rows.finish();
-  recorded.rows = rows.kept();
+  recorded.rows = rows.finish();
   recorded.state.counts = result.summary;
   recorded.state.flag_latest_s = rows.flag_latest_s();
   recorded.state.clock = result.clock ? result.clock->text() : "";
   recorded.doubtful = result.doubtful;
   return recorded;
-}
-
-/// The first swing's ellipse as a path of the mass.
-PathEllipse path_of(const SwingAnalysis& analysis, double length_m) {
-  constexpr double kSure = 2;
-  const Measured& minor = analysis.semi_minor_rad;
-  PathEllipse path{.a_m = length_m * std::sin(analysis.semi_major_rad.value),
-                   .b_m = length_m * std::sin(std::abs(minor.value))};
-  path.orientation_rad = analysis.orientation_rad ? analysis.orientation_rad->value : 0;
-  if (std::abs(minor.value) > kSure * minor.sigma) {
-    path.sense = minor.value > 0 ? 1 : -1;
-  }
-  return path;
 }
 
 /// So many angles a second tell of a pendulum what thousands would, in far less time.
@@ -152,7 +137,7 @@ AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, do
   }
   state.swing = SwingNow{.period_s = analysis->small_period_s.value,
                          .amplitude_rad = analysis->semi_major_rad.value,
-                         .ellipse = path_of(*analysis, pendulum.length_m)};
+                         .ellipse = path_of(analysis->first_swing(), pendulum.length_m)};
   AnalysisFigures figures = analysis_figures(*analysis);
   if (stride > 1) {
     figures.insert(
@@ -160,11 +145,6 @@ AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, do
         {"Analysed", fmt::format("one of {} moments; 'penduline analyze' takes all", stride)});
   }
   return figures;
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 ExitStatus report(const ReportOptions& options) {
@@ -178,6 +158,10 @@ ExitStatus report(const ReportOptions& options) {
   const auto rig = load_rig(options.rig_path);
   if (!rig) {
     return log_failure(rig.error());
+  }
+  const auto rig_toml = read_whole_text(options.rig_path);
+  if (!rig_toml) {
+    return log_failure(rig_toml.error());
   }
   const StopSignal stop;
   const auto extent =
@@ -217,7 +201,7 @@ ExitStatus report(const ReportOptions& options) {
                               .state = state_json(subject, recorded->state, extent->samples),
                               .notes = std::move(recorded->notes),
                               .analysis = std::move(figures),
-                              .rig_toml = text_of(options.rig_path),
+                              .rig_toml = *rig_toml,
                               .points = report_points(recorded->rows, rig->rig.layout.count),
                               .bin_s = bin_s});
   if (const auto written = file->flush(); !written) {

@@ -3,6 +3,7 @@
 #include "host/report/report_rows.hpp"
 
 #include <cstdlib>
+#include <utility>
 
 namespace penduline {
 
@@ -45,11 +46,12 @@ void ReportRows::take(const Estimate<double>& estimate) {
     return;
   }
   keeper_.add(*row, kept_);
-  for (std::size_t i = 0; row->flags != 0 && i < kFlagDescriptions.size(); ++i) {
-    if ((row->flags & kFlagDescriptions[i].bit) != 0) {
-      flag_latest_s_[i] = row->t_s;
-    }
-  }
+  note_flags(flag_latest_s_, row->flags, row->t_s);
+}
+
+std::vector<LiveRow> ReportRows::finish() {
+  keeper_.finish(kept_);
+  return std::exchange(kept_, {});
 }
 
 double ReportRows::latest_s() const {

@@ -2,7 +2,6 @@
 // A recording's rows as a report draws them: every moment, or of very many those with the peaks.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "common/estimate.hpp"
 #include "hal/replay/recording_event.hpp"
+#include "host/flag_times.hpp"
 #include "host/web/live_row.hpp"
 #include "host/web/live_rows.hpp"
 #include "host/web/peak_keeper.hpp"
@@ -30,15 +30,13 @@ class ReportRows {
   void take(const Estimate<double>& estimate);
   /// Its host's time says how long a restart took.
   void take(const RecordingEvent& event);
-  void finish() { keeper_.finish(kept_); }
+  /// All rows that are kept, once.
+  [[nodiscard]] std::vector<LiveRow> finish();
 
-  [[nodiscard]] const std::vector<LiveRow>& kept() const { return kept_; }
   /// The report's time of the sample that was taken last, in seconds.
   [[nodiscard]] double latest_s() const;
   /// When each flag of kFlagDescriptions was seen last, where it was, in the report's time.
-  [[nodiscard]] const std::array<double, kFlagDescriptions.size()>& flag_latest_s() const {
-    return flag_latest_s_;
-  }
+  [[nodiscard]] const FlagTimes& flag_latest_s() const { return flag_latest_s_; }
 
  private:
   struct Waiting {
@@ -53,7 +51,7 @@ class ReportRows {
   std::int64_t event_host_us_ = 0;          ///< host's time of the latest event
   std::optional<std::int64_t> event_t_us_;  ///< board's time then; none: the board starts anew
   std::vector<LiveRow> kept_;
-  std::array<double, kFlagDescriptions.size()> flag_latest_s_{};
+  FlagTimes flag_latest_s_{};
 };
 
 /// How long bins must be for a recording of so many samples in so many seconds to leave about

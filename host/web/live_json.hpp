@@ -2,16 +2,15 @@
 // What a session is and how it stands, as the live page is told (docs/web_protocol.md).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "common/flags.hpp"
 #include "common/sample.hpp"
 #include "hal/replay/recording_event.hpp"
 #include "hal/replay/recording_format.hpp"
+#include "host/flag_times.hpp"
 #include "host/rig_file.hpp"
 #include "host/session/summary.hpp"
 #include "host/web/swing_now.hpp"
@@ -43,10 +42,10 @@ struct LiveSubject {
 struct LiveState {
   bool connected = false;
   std::optional<Summary> counts{};
-  std::array<double, kFlagDescriptions.size()> flag_latest_s{};  ///< where it was counted
-  std::optional<Sample> sample{};                                ///< the newest
-  bool began_with_start = false;  ///< the session's first sample was the board's first, no restart
-  std::string clock{};            ///< "": nothing is known
+  FlagTimes flag_latest_s{};       ///< of what was counted
+  std::optional<Sample> sample{};  ///< the newest
+  bool began_with_start = false;   ///< the session's first sample was the board's first, no restart
+  std::string clock{};             ///< "": nothing is known
   std::optional<SwingNow> swing{};
 };
 

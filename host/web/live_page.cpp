@@ -68,11 +68,8 @@ void LivePage::take_samples() {
     if (const auto row = rows_.next(live)) {
       keeper_.add(*row, kept_);
     }
-    for (std::size_t i = 0; live.estimate.flags != 0 && i < kFlagDescriptions.size(); ++i) {
-      if ((live.estimate.flags & kFlagDescriptions[i].bit) != 0) {
-        state_.flag_latest_s[i] = rows_.time().at_board_s(live.sample.t_us);
-      }
-    }
+    note_flags(state_.flag_latest_s, live.estimate.flags,
+               rows_.time().at_board_s(live.sample.t_us));
   }
   keep_rows();
   if (!news_.samples.empty()) {

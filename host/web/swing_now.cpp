@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "host/analysis/free_span.hpp"
-#include "host/analysis/swing_ellipse.hpp"
 
 namespace penduline {
 namespace {
@@ -37,6 +36,8 @@ double way_rad(const SwingEllipse& swing, bool wide) {
   return swing.phase_rad.value + (wide ? turn * swing.orientation_rad.value : 0);
 }
 
+}  // namespace
+
 PathEllipse path_of(const SwingEllipse& swing, double length_m) {
   constexpr double kSigmas = 3;
   const double width = swing.semi_minor_rad.value;
@@ -49,8 +50,6 @@ PathEllipse path_of(const SwingEllipse& swing, double length_m) {
           .orientation_rad = swing.orientation_rad.value - turns * std::numbers::pi,
           .sense = has_width ? (width > 0 ? 1 : -1) : 0};
 }
-
-}  // namespace
 
 std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length_m, double span_s) {
   constexpr std::size_t kFewestRows = 16;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "host/analysis/swing_ellipse.hpp"
 #include "host/web/live_row.hpp"
 
 namespace penduline {
@@ -16,9 +17,13 @@ struct PathEllipse {
   double x_m = 0;  ///< of its centre
   double y_m = 0;
   double orientation_rad = 0;  ///< of the major axis, from X to Y, 0 to pi
-  /// Seen from above: 1 anticlockwise, -1 clockwise, 0 where the width is within its uncertainty.
+  /// Seen from above: 1 anticlockwise, -1 clockwise, 0 where the width is within three of its
+  /// sigmas.
   int sense = 0;
 };
+
+/// That of a mass `length_m` below the pivot in one swing.
+[[nodiscard]] PathEllipse path_of(const SwingEllipse& swing, double length_m);
 
 struct SwingNow {
   double period_s = 0;

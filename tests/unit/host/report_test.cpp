@@ -41,11 +41,11 @@ TEST_CASE("Estimates that come long after their samples stand beside them", "[re
   for (int i = 0; i < 500; ++i) {
     rows.take(estimate(i));
   }
-  rows.finish();
-  REQUIRE(rows.kept().size() == 500);
+  const std::vector<LiveRow> kept = rows.finish();
+  REQUIRE(kept.size() == 500);
   for (int i = 0; i < 500; ++i) {
-    CHECK(rows.kept()[static_cast<std::size_t>(i)].t_s == Approx(0.05 * i).margin(1e-9));
-    CHECK(rows.kept()[static_cast<std::size_t>(i)].signal_v[0] == Approx(signal_of(i)));
+    CHECK(kept[static_cast<std::size_t>(i)].t_s == Approx(0.05 * i).margin(1e-9));
+    CHECK(kept[static_cast<std::size_t>(i)].signal_v[0] == Approx(signal_of(i)));
   }
 }
 
@@ -65,13 +65,13 @@ TEST_CASE("After a restart the time goes on by the events' clock", "[report]") {
   }
   rows.take(estimate(0, flag::kRestarted));
   rows.take(estimate(1));
-  rows.finish();
-  REQUIRE(rows.kept().size() == 102);
-  CHECK(rows.kept()[99].t_s == Approx(4.95));
-  CHECK(rows.kept()[99].signal_v[0] == Approx(signal_of(99)));
-  CHECK(rows.kept()[100].t_s == Approx(6.95));
-  CHECK(rows.kept()[100].signal_v[0] == Approx(signal_of(0)));
-  CHECK(rows.kept()[101].t_s == Approx(7.0));
+  const std::vector<LiveRow> kept = rows.finish();
+  REQUIRE(kept.size() == 102);
+  CHECK(kept[99].t_s == Approx(4.95));
+  CHECK(kept[99].signal_v[0] == Approx(signal_of(99)));
+  CHECK(kept[100].t_s == Approx(6.95));
+  CHECK(kept[100].signal_v[0] == Approx(signal_of(0)));
+  CHECK(kept[101].t_s == Approx(7.0));
 }
 
 TEST_CASE("Only very long recordings are thinned", "[report]") {
