@@ -5,11 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/asio/bind_executor.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
-#include <boost/beast/core/error.hpp>
-#include <boost/beast/http/error.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <nlohmann/json.hpp>
@@ -17,6 +13,7 @@
 
 #include "host/web/live_json.hpp"
 #include "host/web/page/page_files.hpp"
+#include "host/web/web_headers.hpp"
 
 namespace penduline {
 namespace {
@@ -24,67 +21,8 @@ namespace {
 namespace asio = boost::asio;
 namespace http = boost::beast::http;
 
-constexpr std::size_t kPieceBytes = 65536;
 constexpr std::string_view kPlainText = "text/plain; charset=utf-8";
 constexpr std::string_view kJsonType = "application/json";
-
-struct HeaderLine {
-  std::string_view name;
-  std::string_view value;
-};
-
-/// With every answer. What the page loads comes from here, and nothing in data is ever run.
-constexpr std::array kHeaderLines = {
-    HeaderLine{"Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
-               "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-    HeaderLine{"X-Content-Type-Options", "nosniff"},
-    HeaderLine{"Referrer-Policy", "no-referrer"},
-    HeaderLine{"Cache-Control", "no-store"},
-    HeaderLine{"Cross-Origin-Resource-Policy", "same-origin"},
-};
-
-/// The start of an answer that ends with its connection.
-std::string stream_head(std::string_view own_lines) {
-  std::string head = fmt::format("HTTP/1.1 200 OK\r\n{}Connection: close\r\n", own_lines);
-  for (const HeaderLine& line : kHeaderLines) {
-    head += fmt::format("{}: {}\r\n", line.name, line.value);
-  }
-  return head + "\r\n";
-}
-
-LiveEvents::Text shared(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
-std::string_view view(boost::beast::string_view text) {
-  return {text.data(), text.size()};
-}
-
-/// A header's value; "" where there is none, or two that contradict each other.
-std::string_view only(const http::fields& fields, boost::beast::string_view name) {
-  const auto [begin, end] = fields.equal_range(name);
-  return begin != end && std::next(begin) == end ? view(begin->value()) : std::string_view();
-}
-
-/// What the request's reading failed of, as a status and a sentence; none where nobody listens any
-/// more.
-std::optional<WebRefusal> refusal_of(const boost::system::error_code& failed) {
-  constexpr unsigned kBadRequest = 400;
-  constexpr unsigned kTooLarge = 413;
-  constexpr unsigned kHeaderTooLarge = 431;
-  if (failed == http::error::header_limit || failed == http::error::buffer_overflow) {
-    return WebRefusal{kHeaderTooLarge, "The headers are too long."};
-  }
-  if (failed == http::error::body_limit) {
-    return WebRefusal{kTooLarge, "The body is too long."};
-  }
-  const bool malformed = failed.category() == make_error_code(http::error::bad_method).category();
-  if (malformed && failed != http::error::end_of_stream && failed != http::error::partial_message) {
-    return WebRefusal{kBadRequest, "This is no request of HTTP."};
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -150,12 +88,12 @@ void WebConnection::take_request(ErrorCode failed) {
     return refuse(kMethodNotAllowed, "Only GET and POST are understood.");
   }
   WebRequest asked{.is_action = is_post,
-                   .host = only(request_, "Host"),
-                   .content_type = only(request_, "Content-Type"),
-                   .marker = only(request_, "X-Penduline"),
-                   .token = only(request_, "X-Penduline-Token")};
+                   .host = only_value(request_, "Host"),
+                   .content_type = only_value(request_, "Content-Type"),
+                   .marker = only_value(request_, "X-Penduline"),
+                   .token = only_value(request_, "X-Penduline-Token")};
   if (request_.count(http::field::origin) > 0) {
-    asked.origin = only(request_, "Origin");
+    asked.origin = only_value(request_, "Origin");
   }
   if (const auto refused = server_.guard_.refusal(asked, address_)) {
     return refuse(refused->status, refused->sentence);
@@ -164,7 +102,7 @@ void WebConnection::take_request(ErrorCode failed) {
 }
 
 void WebConnection::answer_get() {
-  const std::string_view target = view(request_.target());
+  const std::string_view target = text_view(request_.target());
   const auto files = page_files();
   const auto file = std::ranges::find(files, target, &PageFile::path);
   constexpr unsigned kOk = 200;
@@ -181,7 +119,7 @@ void WebConnection::answer_get() {
 }
 
 void WebConnection::answer_post() {
-  const std::string_view target = view(request_.target());
+  const std::string_view target = text_view(request_.target());
   constexpr unsigned kBadRequest = 400;
   constexpr unsigned kNotFound = 404;
   if (target == "/recording/start") {
@@ -266,100 +204,6 @@ void WebConnection::linger() {
                               self->linger();
                             }
                           });
-}
-
-void WebConnection::begin_live() {
-  constexpr unsigned kUnavailable = 503;
-  if (server_.viewers_.size() >= server_.limits_.viewers) {
-    return refuse(kUnavailable,
-                  fmt::format("{} viewers watch already, which is the most there may be.",
-                              server_.limits_.viewers));
-  }
-  viewing_ = server_.viewers_.insert(server_.viewers_.end(), this);
-  position_ = server_.page_.events().end();
-  watch_for_end();
-  send({shared(stream_head("Content-Type: text/event-stream\r\n") + "retry: 1000\n\n"),
-        shared(server_.page_.greeting())});
-}
-
-void WebConnection::send_news() {
-  const LiveEvents& events = server_.page_.events();
-  if (sending_ || position_ == events.end()) {
-    return;
-  }
-  std::vector<LiveEvents::Text> texts;
-  if (events.has_all_from(position_)) {
-    texts = events.from(position_);
-  } else {
-    texts.push_back(shared(server_.page_.resumption()));
-  }
-  position_ = events.end();
-  send(std::move(texts));
-}
-
-void WebConnection::send(std::vector<LiveEvents::Text> texts) {
-  sending_ = true;
-  std::vector<asio::const_buffer> buffers;
-  buffers.reserve(texts.size());
-  for (const LiveEvents::Text& text : texts) {
-    buffers.emplace_back(text->data(), text->size());
-  }
-  stream_.expires_after(server_.limits_.viewer_time);
-  asio::async_write(
-      stream_, buffers,
-      [self = shared_from_this(), texts = std::move(texts)](ErrorCode failed, std::size_t) {
-        self->sending_ = false;
-        if (failed) {
-          self->close();
-        }
-      });
-}
-
-void WebConnection::watch_for_end() {
-  // A viewer has nothing more to say; that its connection is over is to be known at once.
-  stream_.expires_never();
-  stream_.async_read_some(asio::buffer(thrown_away_),
-                          [self = shared_from_this()](ErrorCode, std::size_t) { self->close(); });
-}
-
-void WebConnection::begin_download() {
-  constexpr unsigned kNotFound = 404;
-  constexpr unsigned kUnavailable = 503;
-  const auto path = server_.actions_.download();
-  if (!path) {
-    return refuse(kNotFound, "There is no recording yet.");
-  }
-  if (server_.downloads_ >= server_.limits_.downloads) {
-    return refuse(kUnavailable, "Too many downloads are under way; try again later.");
-  }
-  auto file = RecordingDownload::open(*path);
-  if (!file) {
-    return refuse(kNotFound, file.error().message);
-  }
-  download_.emplace(std::move(*file));
-  ++server_.downloads_;
-  const std::string head =
-      stream_head(fmt::format("Content-Type: text/csv; charset=utf-8\r\nContent-Length: {}\r\n"
-                              "Content-Disposition: attachment; filename=\"{}\"\r\n",
-                              download_->size_bytes(), download_name(*path)));
-  piece_.assign(head.begin(), head.end());
-  send_file();
-}
-
-void WebConnection::send_file() {
-  stream_.expires_after(server_.limits_.request_time);
-  asio::async_write(stream_, asio::buffer(piece_),
-                    [self = shared_from_this()](ErrorCode failed, std::size_t) {
-                      if (failed) {
-                        return;
-                      }
-                      self->piece_.resize(kPieceBytes);
-                      self->piece_.resize(self->download_->read(self->piece_));
-                      if (self->piece_.empty()) {
-                        return self->linger();
-                      }
-                      self->send_file();
-                    });
 }
 
 }  // namespace penduline
