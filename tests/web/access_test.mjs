@@ -3,27 +3,18 @@
 
 import assert from 'node:assert';
 import { readdirSync, readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { violations } from './axe.mjs';
-import { drawn, openBrowser, openPage, sleep, until } from './browser.mjs';
-import { startProgram } from './program.mjs';
+import { drawn, openPage, sleep, until } from './browser.mjs';
+import { liveRun } from './live_run.mjs';
 
 const kMostTabs = 30;
 
-let program;
-let browser;
-before(async () => {
-  program = await startProgram();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await program?.stop();
-});
+const run = liveRun();
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe-core finds nothing to say against the ${colorScheme} page`, async () => {
-    const { page } = await openPage(browser, program.url);
+    const { page } = await openPage(run.browser, run.program.url);
     await page.emulateMedia({ colorScheme });
     await drawn(page);
     await sleep(1500);
@@ -49,7 +40,7 @@ async function tabTo(page, id) {
 }
 
 test('keys alone start a recording, set a mark and stop it', async () => {
-  const { page, complaints } = await openPage(browser, program.url);
+  const { page, complaints } = await openPage(run.browser, run.program.url);
   await drawn(page);
   await until('a button', () => page.isEnabled('#record-button'));
   await tabTo(page, 'record-button');
@@ -70,13 +61,13 @@ test('keys alone start a recording, set a mark and stop it', async () => {
   const text = readFileSync(await download.path(), 'utf8');
   assert.match(text, /^# penduline_recording = 1$/m);
   assert.match(text, /a gust <b>of<\/b> wind/);
-  assert.ok(readdirSync(program.folder).some((name) => name.endsWith('.csv')));
+  assert.ok(readdirSync(run.program.folder).some((name) => name.endsWith('.csv')));
   assert.deepEqual(complaints, []);
   await page.close();
 });
 
 test('keys alone turn the view in space, and turn it back', async () => {
-  const { page } = await openPage(browser, program.url);
+  const { page } = await openPage(run.browser, run.program.url);
   await drawn(page);
   const seenFrom = async () => /seen from (.*)\.$/.exec(await page.textContent('#space-words'))?.[1];
   await until('words', async () => (await seenFrom()) !== undefined);
@@ -92,7 +83,7 @@ test('keys alone turn the view in space, and turn it back', async () => {
 });
 
 test('the pointer turns the view in space', async () => {
-  const { page } = await openPage(browser, program.url);
+  const { page } = await openPage(run.browser, run.program.url);
   await drawn(page);
   await until('words', async () => (await page.textContent('#space-words')).includes('seen from'));
   const view = page.locator('#space canvas');
@@ -108,7 +99,7 @@ test('the pointer turns the view in space', async () => {
 });
 
 test('what is said aloud changes with the state only, not with each second', async () => {
-  const { page } = await openPage(browser, program.url);
+  const { page } = await openPage(run.browser, run.program.url);
   await drawn(page);
   await sleep(500);
   const said = await page.evaluate(() => new Promise((resolve) => {

@@ -3,31 +3,23 @@
 
 import assert from 'node:assert';
 import { connect } from 'node:net';
-import { after, before, test } from 'node:test';
-import { axesOf, drawn, openBrowser, openPage, sleep, until } from './browser.mjs';
+import { test } from 'node:test';
+import { axesOf, drawn, openPage, sleep, until } from './browser.mjs';
+import { liveRun } from './live_run.mjs';
 import { followLive, startProgram } from './program.mjs';
 
 const kLargestPage_bytes = 150 * 1024;
 const kFirstPlot_ms = 5000; // the aim is 1 s, on a machine that does nothing else
 
-let program;
-let browser;
-before(async () => {
-  program = await startProgram();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await program?.stop();
-});
+const run = liveRun();
 
 const connection = (page) => page.textContent('#connection');
 const pictureOf = (page, selector) => page.evaluate((found) => document.querySelector(found).toDataURL(), selector);
 
 test('the first plot is there soon after opening', async (t) => {
-  const page = await browser.newPage();
+  const page = await run.browser.newPage();
   const start_ms = Date.now();
-  await page.goto(program.url);
+  await page.goto(run.program.url);
   await drawn(page);
   const taken_ms = Date.now() - start_ms;
   t.diagnostic(`first plot after ${taken_ms} ms`);
@@ -38,7 +30,7 @@ test('the first plot is there soon after opening', async (t) => {
 test('the page weighs at most 150 KB', async (t) => {
   let bytes = 0;
   for (const path of ['', 'page.js', 'page.css']) {
-    const answer = await fetch(new URL(path, program.url));
+    const answer = await fetch(new URL(path, run.program.url));
     assert.equal(answer.status, 200);
     bytes += (await answer.arrayBuffer()).byteLength;
   }
@@ -47,7 +39,7 @@ test('the page weighs at most 150 KB', async (t) => {
 });
 
 test('every picture moves, with no complaint in the console', async () => {
-  const { page, complaints } = await openPage(browser, program.url);
+  const { page, complaints } = await openPage(run.browser, run.program.url);
   await drawn(page);
   const canvases = ['#angles canvas', '#gaps canvas', '#signals canvas', '#above canvas', '#space canvas'];
   await page.setViewportSize({ width: 1440, height: 2000 }); // what is out of sight is not drawn
@@ -66,7 +58,7 @@ test('every picture moves, with no complaint in the console', async () => {
 });
 
 test('two viewers see the same', async () => {
-  const pages = await Promise.all([openPage(browser, program.url), openPage(browser, program.url)]);
+  const pages = await Promise.all([openPage(run.browser, run.program.url), openPage(run.browser, run.program.url)]);
   for (const { page } of pages) await drawn(page);
   await sleep(500);
   const [first, second] = await Promise.all(pages.map(({ page }) => axesOf(page, 'gaps').catch(() => null)));
@@ -78,15 +70,15 @@ test('two viewers see the same', async () => {
 
 test('a viewer who does not read disturbs neither sampling nor the others', async () => {
   const stalled = Array.from({ length: 5 }, () => {
-    const socket = connect(program.port, '127.0.0.1');
+    const socket = connect(run.program.port, '127.0.0.1');
     socket.on('error', () => {});
-    socket.write(`GET /live HTTP/1.1\r\nHost: 127.0.0.1:${program.port}\r\n\r\n`);
+    socket.write(`GET /live HTTP/1.1\r\nHost: 127.0.0.1:${run.program.port}\r\n\r\n`);
     socket.pause();
     return socket;
   });
-  const { page } = await openPage(browser, program.url);
+  const { page } = await openPage(run.browser, run.program.url);
   await drawn(page);
-  const live = followLive(program.url);
+  const live = followLive(run.program.url);
   await until('a state', () => live.events.state.length > 0);
   const before = live.events.state.at(-1);
   const { t_s: [, before_s] } = await axesOf(page, 'angles');
@@ -104,7 +96,7 @@ test('a viewer who does not read disturbs neither sampling nor the others', asyn
 
 test('the page says that the program is away, and goes on when it is back', async () => {
   const first = await startProgram();
-  const { page } = await openPage(browser, first.url);
+  const { page } = await openPage(run.browser, first.url);
   await drawn(page);
   await until('more than 3 s of a first run', async () => (await axesOf(page, 'angles')).t_s[1] > 3);
   await first.stop();
@@ -121,23 +113,23 @@ test('the page says that the program is away, and goes on when it is back', asyn
 });
 
 test('a stream that was refused is asked for again', async () => {
-  const page = await browser.newPage();
+  const page = await run.browser.newPage();
   let refusals = 0;
   await page.route('**/live', (route) => {
     if (++refusals <= 2) return route.fulfill({ status: 503, body: 'full' });
     return route.continue();
   });
-  await page.goto(program.url);
+  await page.goto(run.program.url);
   await until('Live', async () => (await connection(page)) === 'Live');
   assert.equal(refusals, 3);
   await page.close();
 });
 
 test('a tab that slept shows the latest when it wakes up', async () => {
-  const { page, complaints } = await openPage(browser, program.url);
+  const { page, complaints } = await openPage(run.browser, run.program.url);
   await drawn(page);
   const { t_s: [, asleep_s] } = await axesOf(page, 'angles');
-  const devtools = await browser.newCDPSession(page);
+  const devtools = await run.browser.newCDPSession(page);
   await devtools.send('Page.setWebLifecycleState', { state: 'frozen' });
   await sleep(5000);
   await devtools.send('Page.setWebLifecycleState', { state: 'active' });

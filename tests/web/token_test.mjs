@@ -2,25 +2,16 @@
 // The page of a run that others can watch: they see all, and change nothing without the token.
 
 import assert from 'node:assert';
-import { after, before, test } from 'node:test';
-import { drawn, openBrowser, openPage, until } from './browser.mjs';
-import { startProgram } from './program.mjs';
+import { test } from 'node:test';
+import { drawn, openPage, until } from './browser.mjs';
+import { liveRun } from './live_run.mjs';
 
-let program;
-let browser;
-before(async () => {
-  program = await startProgram({ address: '0.0.0.0' });
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await program?.stop();
-});
+const run = liveRun({ address: '0.0.0.0' });
 
 const words = (page) => page.textContent('#actions-words');
 
 test('without the token the page shows the run and says why its buttons are off', async () => {
-  const { page, complaints } = await openPage(browser, program.url);
+  const { page, complaints } = await openPage(run.browser, run.program.url);
   await drawn(page);
   assert.equal(await words(page),
     'To record and mark, open the address that the program printed; it ends in a token.');
@@ -32,7 +23,7 @@ test('without the token the page shows the run and says why its buttons are off'
 });
 
 test('a wrong token is refused in the words of the program', async () => {
-  const { page } = await openPage(browser, `${program.url}#token=${'0'.repeat(32)}`);
+  const { page } = await openPage(run.browser, `${run.program.url}#token=${'0'.repeat(32)}`);
   await drawn(page);
   await page.click('#record-button');
   await until('the words', async () => /token is missing or wrong/.test(await words(page)));
@@ -41,10 +32,10 @@ test('a wrong token is refused in the words of the program', async () => {
 });
 
 test('with the token marks are set, it leaves the address bar, and a reload keeps it', async () => {
-  assert.match(program.token, /^#token=[0-9a-f]{32}$/);
-  const { page } = await openPage(browser, `${program.url}${program.token}`);
+  assert.match(run.program.token, /^#token=[0-9a-f]{32}$/);
+  const { page } = await openPage(run.browser, `${run.program.url}${run.program.token}`);
   await drawn(page);
-  assert.equal(page.url(), program.url);
+  assert.equal(page.url(), run.program.url);
   await page.reload();
   await drawn(page);
   await page.fill('#mark-text', 'kept');
