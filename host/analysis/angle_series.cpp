@@ -153,7 +153,8 @@ tl::expected<AngleSeries, Error> read_angle_table(const std::string& path) {
 }
 
 tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
-                                                     const Rig<double>& rig) {
+                                                     const Rig<double>& rig,
+                                                     const std::function<bool()>& stopped) {
   auto source = open_recording(path);
   if (!source) {
     return tl::unexpected(source.error());
@@ -175,6 +176,9 @@ tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
     }
     if (*more != ReadResult::kSample) {
       return series;
+    }
+    if (stopped && stopped()) {
+      return failure(path + ": stopped while reading");
     }
     const Estimate<double> estimate = pipeline.update(sample);
     const Flags against = estimate.flags & ~kHarmlessToAngles;

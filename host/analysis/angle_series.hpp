@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,8 +68,9 @@ struct AngleColumns {
 [[nodiscard]] tl::expected<AngleSeries, Error> read_angle_table(const std::string& path);
 
 /// The angles of each sample of a recording by itself: no filter, so that noise is independent from
-/// row to row and nothing is bent. Fails as reading does, and where the board's clock starts anew.
-[[nodiscard]] tl::expected<AngleSeries, Error> angles_of_recording(const std::string& path,
-                                                                   const Rig<double>& rig);
+/// row to row and nothing is bent. Fails as reading does, where the board's clock starts anew, and
+/// once `stopped` says so; that may be empty.
+[[nodiscard]] tl::expected<AngleSeries, Error> angles_of_recording(
+    const std::string& path, const Rig<double>& rig, const std::function<bool()>& stopped = {});
 
 }  // namespace penduline

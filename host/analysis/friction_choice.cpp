@@ -76,14 +76,15 @@ FrictionTest f_test(const SwingFit& without, const SwingFit& full) {
 }  // namespace
 
 tl::expected<FrictionChoice, Error> choose_friction(const AngleSeries& series,
-                                                    const SwingFit& linear) {
+                                                    const SwingFit& linear,
+                                                    const std::function<bool()>& stopped) {
   const double duration_s = series.t_s.back() - series.t_s.front();
   // An angle that nothing disturbs is not known better than a thousandth of the other.
   const double larger = std::max({linear.noise.x_rad, linear.noise.y_rad, 1e-9});
   TiltPoint noise{.x_rad = std::max(linear.noise.x_rad, 1e-3 * larger),
                   .y_rad = std::max(linear.noise.y_rad, 1e-3 * larger)};
   const FrictionTerms all{.linear = true, .quadratic = true, .dry = true};
-  auto first = fit_swing(series, all, shared_out(linear, all, duration_s), noise);
+  auto first = fit_swing(series, all, shared_out(linear, all, duration_s), noise, stopped);
   if (!first) {
     return tl::unexpected(first.error());
   }
@@ -97,7 +98,7 @@ tl::expected<FrictionChoice, Error> choose_friction(const AngleSeries& series,
     if (terms == all) {
       guess = first->model;
     }
-    auto fit = fit_swing(series, terms, guess, noise);
+    auto fit = fit_swing(series, terms, guess, noise, stopped);
     fits.push_back(fit ? std::move(*fit) : no_fit(*first, terms));
   }
   const SwingFit& full = fits.back();

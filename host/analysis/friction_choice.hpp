@@ -35,9 +35,9 @@ struct FrictionChoice {
 /// A difference that is strong evidence (Kass and Raftery 1995).
 inline constexpr double kBicMargin = 6;
 
-/// Fits all eight models from the linear one's fit on.
-[[nodiscard]] tl::expected<FrictionChoice, Error> choose_friction(const AngleSeries& series,
-                                                                  const SwingFit& linear);
+/// Fits all eight models from the linear one's fit on. Fails as `fit_swing` does.
+[[nodiscard]] tl::expected<FrictionChoice, Error> choose_friction(
+    const AngleSeries& series, const SwingFit& linear, const std::function<bool()>& stopped = {});
 
 /// "linear", "quadratic + dry", "none".
 [[nodiscard]] std::string name_of(const FrictionTerms& terms);

@@ -233,11 +233,11 @@ tl::expected<SwingAnalysis, Error> analyze_swing(const AngleSeries& series,
   analysis.series = series.between(span->from_s, span->to_s);
   analysis.all_rows = series.size();
   analysis.settings = settings;
-  const auto linear = fit_from_nothing(analysis.series, span->period_s);
+  const auto linear = fit_from_nothing(analysis.series, span->period_s, settings.stopped);
   if (!linear) {
     return tl::unexpected(linear.error());
   }
-  auto friction = choose_friction(analysis.series, *linear);
+  auto friction = choose_friction(analysis.series, *linear, settings.stopped);
   if (!friction) {
     return tl::unexpected(friction.error());
   }

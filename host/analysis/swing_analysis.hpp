@@ -2,6 +2,7 @@
 // All that a free swing tells of its pendulum, every figure with its uncertainty.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <tl/expected.hpp>
 #include <vector>
@@ -20,6 +21,8 @@ struct AnalysisSettings {
   /// The part to look at; where neither is given the free swing is looked for.
   std::optional<double> from_s{};
   std::optional<double> to_s{};
+  /// Asked now and then whether the analysis is to end, as failed; may be empty.
+  std::function<bool()> stopped{};
 };
 
 /// Amplitude and energy of one swing, measured and as the fitted model has it.
@@ -67,7 +70,7 @@ struct SwingAnalysis {
   [[nodiscard]] SwingEllipse first_swing() const;
 };
 
-/// Fails, in words, where there is no free swing or no model fits it.
+/// Fails, in words, where there is no free swing or no model fits it, and where it is stopped.
 [[nodiscard]] tl::expected<SwingAnalysis, Error> analyze_swing(const AngleSeries& series,
                                                                const AnalysisSettings& settings);
 

@@ -166,7 +166,8 @@ AngleSeries simulated_angles(const SwingModel& model, const std::vector<double>&
 }
 
 tl::expected<SwingFit, Error> fit_swing(const AngleSeries& series, FrictionTerms terms,
-                                        const SwingModel& guess, const TiltPoint& noise) {
+                                        const SwingModel& guess, const TiltPoint& noise,
+                                        const std::function<bool()>& stopped) {
   SwingFit result{.terms = terms, .planar = series.planar};
   result.model = with_terms(guess, terms);
   const auto rows = static_cast<Eigen::Index>(series.size());
@@ -179,8 +180,9 @@ tl::expected<SwingFit, Error> fit_swing(const AngleSeries& series, FrictionTerms
     }
   };
   const double duration_s = series.t_s.back() - series.t_s.front();
-  const auto fit = fit_least_squares(parameters_of(result.model, terms, series.planar, duration_s),
-                                     series.size() * (series.planar ? 1 : 2), residuals_of);
+  const auto fit =
+      fit_least_squares(parameters_of(result.model, terms, series.planar, duration_s),
+                        series.size() * (series.planar ? 1 : 2), residuals_of, stopped);
   if (!fit) {
     return tl::unexpected(fit.error());
   }
@@ -199,7 +201,8 @@ tl::expected<SwingFit, Error> fit_swing(const AngleSeries& series, FrictionTerms
   return result;
 }
 
-tl::expected<SwingFit, Error> fit_from_nothing(const AngleSeries& series, double period_s) {
+tl::expected<SwingFit, Error> fit_from_nothing(const AngleSeries& series, double period_s,
+                                               const std::function<bool()>& stopped) {
   const auto ellipses =
       swing_ellipses(series, {.period_s = period_s, .step_s = period_s, .rest = {}, .noise = {}});
   if (ellipses.empty()) {
@@ -214,7 +217,8 @@ tl::expected<SwingFit, Error> fit_from_nothing(const AngleSeries& series, double
                                  ? series.between(series.t_s.front(), series.t_s.front() + span_s)
                                  : series;
     const double amplitude = ellipses.front().semi_major_rad.value;
-    auto fit = fit_swing(head, {.linear = true}, guess, {.x_rad = amplitude, .y_rad = amplitude});
+    auto fit =
+        fit_swing(head, {.linear = true}, guess, {.x_rad = amplitude, .y_rad = amplitude}, stopped);
     if (!fit || span_s >= duration_s) {
       return fit;
     }

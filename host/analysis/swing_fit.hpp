@@ -2,6 +2,7 @@
 // The equations of motion fitted to the angles of a free swing.
 #pragma once
 
+#include <functional>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -53,14 +54,15 @@ struct SwingFit {
                                            const std::vector<double>& times_s, bool planar);
 
 /// Fits `terms` from `guess` on; `noise` is what theta1 (x_rad) and theta2 (y_rad) are weighed by.
-/// Frictions are 0 or above. Fails where no minimum is found.
+/// Frictions are 0 or above. Fails where no minimum is found, or soon after `stopped` says so.
 [[nodiscard]] tl::expected<SwingFit, Error> fit_swing(const AngleSeries& series,
                                                       FrictionTerms terms, const SwingModel& guess,
-                                                      const TiltPoint& noise);
+                                                      const TiltPoint& noise,
+                                                      const std::function<bool()>& stopped = {});
 
 /// A fit with linear friction of the whole series, found from its first swings on; both angles
-/// count the same.
-[[nodiscard]] tl::expected<SwingFit, Error> fit_from_nothing(const AngleSeries& series,
-                                                             double period_s);
+/// count the same. Fails as `fit_swing` does.
+[[nodiscard]] tl::expected<SwingFit, Error> fit_from_nothing(
+    const AngleSeries& series, double period_s, const std::function<bool()>& stopped = {});
 
 }  // namespace penduline

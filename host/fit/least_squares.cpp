@@ -18,10 +18,11 @@ namespace {
 class ScaledProblem {
  public:
   ScaledProblem(const std::vector<FitParameter>& parameters, std::size_t residual_count,
-                const FitResiduals& residuals)
+                const FitResiduals& residuals, const std::function<bool()>& stopped)
       : parameters_(parameters),
         count_(static_cast<Eigen::Index>(residual_count)),
         residuals_(residuals),
+        stopped_(stopped),
         scales_(static_cast<Eigen::Index>(parameters.size())) {
     std::ranges::transform(parameters, scales_.begin(), &FitParameter::scale);
   }
@@ -38,6 +39,8 @@ class ScaledProblem {
     residuals_(scaled.cwiseProduct(scales_), result);
     return result;
   }
+
+  [[nodiscard]] bool stopped() const { return stopped_ && stopped_(); }
 
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& scaled) const {
     constexpr double kStep = 1e-4;
@@ -57,12 +60,16 @@ class ScaledProblem {
   const std::vector<FitParameter>& parameters_;
   Eigen::Index count_;
   const FitResiduals& residuals_;
+  const std::function<bool()>& stopped_;
   Eigen::VectorXd scales_;
 };
 
 /// Half the sum of squares and its gradient, as NLopt asks for them.
 double cost(unsigned count, const double* scaled, double* gradient, void* data) {
   const auto& problem = *static_cast<const ScaledProblem*>(data);
+  if (problem.stopped()) {
+    throw nlopt::forced_stop();
+  }
   const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(scaled, count);
   const Eigen::VectorXd residuals = problem.residuals(at);
   if (gradient != nullptr) {
@@ -150,13 +157,13 @@ Eigen::MatrixXd inverse_normal(const Linearized& at) {
 }
 
 /// Goes downhill by Gauss-Newton steps, shortened where they overshoot, until a step is nothing
-/// beside the parameters' sigmas. False where it cannot.
+/// beside the parameters' sigmas. False where it cannot, or is stopped.
 bool polish(const ScaledProblem& problem, Eigen::VectorXd& at, Linearized& here) {
   constexpr int kMostSteps = 50;
   constexpr double kNothing = 1e-3;
   const Eigen::VectorXd low = problem.of_each(&FitParameter::low);
   const Eigen::VectorXd high = problem.of_each(&FitParameter::high);
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostSteps && !problem.stopped(); ++i) {
     here = linearize(problem, at);
     // In residuals' standard deviations: what the step would still gain.
     if ((here.jacobian * here.step).norm() <
@@ -196,12 +203,13 @@ double Fit::sigma(std::size_t parameter) const {
 
 tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& parameters,
                                            std::size_t residual_count,
-                                           const FitResiduals& residuals) {
+                                           const FitResiduals& residuals,
+                                           const std::function<bool()>& stopped) {
   if (residual_count < parameters.size()) {
     return failure(fmt::format("found {} measurements for {} unknowns, expected at least as many",
                                residual_count, parameters.size()));
   }
-  const ScaledProblem problem(parameters, residual_count, residuals);
+  const ScaledProblem problem(parameters, residual_count, residuals, stopped);
   if (!problem.residuals(problem.of_each(&FitParameter::start)).allFinite()) {
     return failure("the fit's first guess has no answer");
   }
@@ -212,7 +220,9 @@ tl::expected<Fit, Error> fit_least_squares(const std::vector<FitParameter>& para
   if (!polish(problem, at, here)) {
     at = search(problem);
     if (!polish(problem, at, here)) {
-      return failure("the fit found no minimum: the model does not describe these data");
+      return failure(problem.stopped()
+                         ? "the fit was stopped"
+                         : "the fit found no minimum: the model does not describe these data");
     }
   }
   fit.at_bound = here.held;

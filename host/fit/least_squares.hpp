@@ -47,10 +47,10 @@ struct Fit {
 /// Goes from the start to the minimum within the bounds by Gauss-Newton steps; where these do not
 /// get there, searches first (NLopt's SLSQP on scaled parameters). Jacobians are central
 /// differences of a ten-thousandth of the scale, so `residuals` must be smooth there. Fails where
-/// there are fewer residuals than parameters, where the start has no answer, and where no minimum
-/// is reached.
+/// there are fewer residuals than parameters, where the start has no answer, where no minimum is
+/// reached, and soon after `stopped` has come to say so; that may be empty.
 [[nodiscard]] tl::expected<Fit, Error> fit_least_squares(
     const std::vector<FitParameter>& parameters, std::size_t residual_count,
-    const FitResiduals& residuals);
+    const FitResiduals& residuals, const std::function<bool()>& stopped = {});
 
 }  // namespace penduline
