@@ -2,6 +2,7 @@
 // One turn: news in, events out.
 #include "host/web/live_page.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace penduline {
@@ -91,14 +92,22 @@ void LivePage::keep_rows() {
 void LivePage::take_notes() {
   for (const LiveNote& note : news_.notes) {
     state_.connected = connected_after(note.event, state_.connected);
-    const auto host_us = note.event.get<std::int64_t>("host_us").value_or(note.host_us);
-    notes_.push_back(event_text("note", note_json(note.event, rows_.time().at_host_s(host_us))));
+    notes_.push_back(event_text("note", note_json(note.event, moment_s(note))));
     if (notes_.size() > kMostNotes) {
       notes_.pop_front();
     }
     events_.add(notes_.back());
     state_changed_ = true;
   }
+}
+
+double LivePage::moment_s(const LiveNote& note) const {
+  constexpr double kFarthest = 1;  // from what the host saw: t_us is of another start's clock
+  const auto host_us = note.event.get<std::int64_t>("host_us").value_or(note.host_us);
+  const double by_host_s = rows_.time().at_host_s(host_us);
+  const auto t_us = note.event.get<std::int64_t>("t_us");
+  const double by_board_s = t_us ? rows_.time().at_board_s(*t_us) : by_host_s;
+  return std::abs(by_board_s - by_host_s) < kFarthest ? by_board_s : by_host_s;
 }
 
 void LivePage::tell_session() {

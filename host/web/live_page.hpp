@@ -43,6 +43,8 @@ class LivePage {
   void take_header(const RecordingHeader& header);
   void take_samples();
   void take_notes();
+  /// The session's time of what a note tells.
+  [[nodiscard]] double moment_s(const LiveNote& note) const;
   void keep_rows();
   void tell_session();
   void tell_points(std::uint64_t from);

@@ -172,6 +172,27 @@ TEST_CASE("A board's first sample is no restart, a later start is one", "[web]")
   CHECK(start(0) == 1);
 }
 
+TEST_CASE("An event stands at its own time by the board's clock, not at the newest sample's",
+          "[web]") {
+  Session session;
+  session.sample(0, 1'000'000);
+  session.sample(1, 1'500'000);
+  const auto at = [](std::int64_t t_us) {
+    return RecordingEvent{.kind = "trigger", .fields = {{"t_us", t_us}}};
+  };
+  session.feed.note(at(1'123'456));
+  session.feed.note(at(90'000'000));  // of the start before
+  std::vector<double> times;
+  for (const auto& [name, data] : session.turn()) {
+    if (name == "note") {
+      times.push_back(data["t_s"].get<double>());
+    }
+  }
+  REQUIRE(times.size() == 2);
+  CHECK(times[0] == Approx(0.123456));
+  CHECK(times[1] == Approx(0.5).margin(0.1));
+}
+
 TEST_CASE("Of many notes a new viewer gets the last 50", "[web]") {
   Session session;
   for (int i = 0; i < 60; ++i) {
