@@ -5,12 +5,12 @@ import assert from 'node:assert';
 import { after, before, test } from 'node:test';
 import { PNG } from 'pngjs';
 import { drawn, openBrowser, openPage, sleep } from './browser.mjs';
+import { colour, kLikeness, shown } from './picture.mjs';
 import { followLive, rowsOf, startProgram } from './program.mjs';
 
 const kRows = 60;
 const kNear_px = 2;
 const kFar_px = 14;
-const kLikeness = 60; // of 255, a channel: anti-aliasing mixes a thin curve with what is behind it
 
 let program;
 let browser;
@@ -29,30 +29,6 @@ after(async () => {
   await browser?.close();
   await program?.stop();
 });
-
-/** What `section` shows at one moment: its canvas as a picture, its plotting area in the canvas's pixels, its axes. */
-async function shown(section) {
-  const found = await page.evaluate((id) => {
-    const host = document.querySelector(`#${id} .plot`);
-    const canvas = host.querySelector('canvas');
-    const all = canvas.getBoundingClientRect();
-    const area = host.querySelector('.u-over').getBoundingClientRect();
-    const scale = canvas.width / all.width;
-    return {
-      png: canvas.toDataURL('image/png'), axes: JSON.parse(host.dataset.axes),
-      left: (area.left - all.left) * scale, top: (area.top - all.top) * scale,
-      width: area.width * scale, height: area.height * scale,
-    };
-  }, section);
-  return { ...found, picture: PNG.sync.read(Buffer.from(found.png.split(',')[1], 'base64')) };
-}
-
-function colour(name) {
-  return page.evaluate((property) => {
-    const text = getComputedStyle(document.documentElement).getPropertyValue(property).trim();
-    return [1, 3, 5].map((at) => Number.parseInt(text.slice(at, at + 2), 16));
-  }, name);
-}
 
 /** Whether a pixel like `wanted` is within `near` of (x, y). */
 function has({ picture }, wanted, x, y, near) {
@@ -95,10 +71,10 @@ function compare(view, rows, wanted) {
 for (const [section, column, property, scale] of [
   ['angles', 'theta1_rad', '--first', 180 / Math.PI], ['angles', 'theta2_rad', '--second', 180 / Math.PI]]) {
   test(`the pixels of ${section} are ${column}`, async () => {
-    const view = await shown(section);
+    const view = await shown(page, section);
     await sleep(300); // what the page had, this stream has by now
     const rows = rowsOf(live.events.points, column).map(([t_s, value]) => [t_s, value * scale]);
-    const found = compare(view, rows, await colour(property));
+    const found = compare(view, rows, await colour(page, property));
     assert.equal(found.rows, kRows);
     // Where the other curve crosses, it hides this one.
     assert.ok(found.there >= 0.9 * found.rows, JSON.stringify(found));
@@ -108,12 +84,12 @@ for (const [section, column, property, scale] of [
 
 for (const [section, key, scale] of [['gaps', 'gap_m', 1000], ['signals', 'signal_v', 1]]) {
   test(`the pixels of ${section} are ${key}`, async () => {
-    const view = await shown(section);
+    const view = await shown(page, section);
     await sleep(300);
     for (const [i, property] of ['--first', '--second'].entries()) {
       const rows = live.events.points.flatMap((event) => event.t_s.map((t_s, at) => [t_s, event[key][i][at]]))
         .filter(([, value]) => value !== null).map(([t_s, value]) => [t_s, value * scale]);
-      const found = compare(view, rows, await colour(property));
+      const found = compare(view, rows, await colour(page, property));
       assert.equal(found.rows, kRows);
       assert.ok(found.there >= 0.85 * found.rows, `sensor ${i}: ${JSON.stringify(found)}`);
     }
@@ -127,7 +103,7 @@ test('the trail from above goes where the mass has been', async () => {
   });
   await sleep(300);
   const picture = PNG.sync.read(Buffer.from(png.split(',')[1], 'base64'));
-  const ink = await colour('--ink');
+  const ink = await colour(page, '--ink');
   const margin = 26 * ratio;
   const scale = (Math.min(picture.width, picture.height) / 2 - margin) / reach;
   const place = (x_m, y_m) => [picture.width / 2 + 1000 * x_m * scale, picture.height / 2 - 1000 * y_m * scale];
