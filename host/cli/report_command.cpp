@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "hal/replay/line_reader.hpp"
 #include "host/analysis/analysis_report.hpp"
@@ -18,10 +19,10 @@
 #include "host/cli/estimation_options.hpp"
 #include "host/cli/log.hpp"
 #include "host/output/text_file.hpp"
+#include "host/report/recorded_session.hpp"
 #include "host/report/report_page.hpp"
 #include "host/report/report_points.hpp"
 #include "host/report/report_rows.hpp"
-#include "host/session/session.hpp"
 #include "host/web/live_json.hpp"
 
 namespace penduline {
@@ -35,102 +36,32 @@ struct ReportOptions {
   bool strict = false;
 };
 
-/// Hands estimates to the report's rows.
-class RowsOutput final : public EstimateSink {
- public:
-  explicit RowsOutput(ReportRows& rows) : rows_(rows) {}
-  tl::expected<void, Error> take(const Estimate<double>& estimate) override {
-    rows_.take(estimate);
-    return {};
-  }
-
- private:
-  ReportRows& rows_;
-};
-
-/// How many samples, and from the first to the last how many seconds of their clock.
-struct Extent {
-  std::uint64_t samples = 0;
-  double seconds = 0;
-};
-
-tl::expected<Extent, Error> extent_of(Source& source) {
-  Extent extent;
-  Sample sample;
-  std::int64_t last_us = 0;
-  while (true) {
-    const auto read = source.read(sample);
-    if (!read) {
-      return tl::unexpected(read.error());
-    }
-    if (*read == ReadResult::kEnded) {
-      return extent;
-    }
-    const bool goes_on = extent.samples++ > 0 && sample.t_us > last_us;
-    extent.seconds += goes_on ? 1e-6 * static_cast<double>(sample.t_us - last_us) : 0;
-    last_us = sample.t_us;
-  }
-}
-
-/// What the recording's session has come to, as the page shows it.
-struct Recorded {
-  std::vector<LiveRow> rows;
-  std::vector<std::string> notes;
-  LiveState state;
+/// A report, and what is said beside it.
+struct Page {
+  std::string html;
+  std::string counts;
   bool doubtful = false;
 };
 
-tl::expected<Recorded, Error> read_recording(const ReportOptions& options, const RigFile& rig,
-                                             Source& source, double bin_s, const StopSignal& stop) {
-  const Acquisition<double> acquisition = source.header().acquisition;
-  auto estimator = make_estimator(options.estimator, rig.rig, acquisition);
-  if (!estimator) {
-    return tl::unexpected(estimator.error());
-  }
-  ReportRows rows(rig.rig, acquisition, bin_s);
-  RowsOutput output(rows);
-  Recorded recorded;
-  SessionParts parts{
-      .source = source, .estimator = **estimator, .output = output, .warn = log_warning};
-  parts.recorder = [&](const Sample& sample) -> tl::expected<void, Error> {
-    rows.take(sample);
-    if (!recorded.state.sample) {
-      recorded.state.began_with_start = (sample.flags & flag::kRestarted) != 0;
-    }
-    recorded.state.sample = sample;
-    return {};
-  };
-  parts.note = [&](const RecordingEvent& event) {
-    rows.take(event);
-    if (event.kind != event::kPong) {
-      recorded.notes.push_back(note_json(event, rows.latest_s()));
-    }
-  };
-  const SessionResult result = run_session(parts, {.rows_on_stdout = false}, stop);
-  if (result.error) {
-    return tl::unexpected(*result.error);
-  }
-  recorded.rows = rows.finish();
-  recorded.state.counts = result.summary;
-  recorded.state.flag_latest_s = rows.flag_latest_s();
-  recorded.state.clock = result.clock ? result.clock->text() : "";
-  recorded.doubtful = result.doubtful;
-  return recorded;
-}
+constexpr const char* kStopped = "stopped: no report was written";
 
 /// So many angles a second tell of a pendulum what thousands would, in far less time.
 constexpr double kAnalysedHz = 20;
 
-/// Figures of `penduline analyze`, or why there are none.
-AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, double rate_hz,
-                            LiveState& state) {
+/// Figures of `penduline analyze`, or why there are none; puts the first swing into the page.
+AnalysisFigures analyse(const ReportOptions& options, const RigFile& rig,
+                        const RecordingHeader& header, const StopSignal& stop, LiveState& state,
+                        std::optional<AnalysedSpan>& span) {
   const Pendulum<double>& pendulum = rig.rig.pendulum;
-  const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(rate_hz / kAnalysedHz)));
-  const auto series = angles_of_recording(options.path, rig.rig);
-  auto analysis = series.and_then([&](const AngleSeries& angles) {
+  const auto stopped = [&stop] { return stop.requested(); };
+  const auto stride =
+      static_cast<std::size_t>(std::max(1.0, std::floor(header.acquisition.rate_hz / kAnalysedHz)));
+  const auto series = angles_of_recording(options.path, rig.rig, stopped);
+  const auto analysis = series.and_then([&](const AngleSeries& angles) {
     log_info(fmt::format("analysing {} moments", angles.size() / stride));
-    return analyze_swing(angles.thinned(stride),
-                         {.gravity_m_s2 = pendulum.gravity_m_s2, .mass_kg = pendulum.mass_kg});
+    return analyze_swing(
+        angles.thinned(stride),
+        {.gravity_m_s2 = pendulum.gravity_m_s2, .mass_kg = pendulum.mass_kg, .stopped = stopped});
   });
   if (!analysis) {
     return {{"No analysis", analysis.error().message}};
@@ -138,6 +69,10 @@ AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, do
   state.swing = SwingNow{.period_s = analysis->small_period_s.value,
                          .amplitude_rad = analysis->semi_major_rad.value,
                          .ellipse = path_of(analysis->first_swing(), pendulum.length_m)};
+  const double from_s = analysis->series.t_s.front();
+  span = AnalysedSpan{.from_s = from_s,
+                      .first_swing_to_s = from_s + analysis->small_period_s.value,
+                      .to_s = analysis->series.t_s.back()};
   AnalysisFigures figures = analysis_figures(*analysis);
   if (stride > 1) {
     figures.insert(
@@ -145,6 +80,90 @@ AnalysisFigures analysis_of(const ReportOptions& options, const RigFile& rig, do
         {"Analysed", fmt::format("one of {} moments; 'penduline analyze' takes all", stride)});
   }
   return figures;
+}
+
+/// A recording that was read whole.
+struct Reading {
+  Extent extent;
+  RecordingHeader header;
+  double bin_s = 0;
+  RecordedSession session;
+};
+
+/// Fails as reading does, and where a stop is requested on the way.
+tl::expected<Reading, Error> read_whole(const ReportOptions& options, const RigFile& rig,
+                                        const StopSignal& stop) {
+  Reading reading;
+  const auto extent = open_recording(options.path).and_then([&](const auto& source) {
+    return extent_of(*source, stop);
+  });
+  if (stop.requested()) {
+    return failure(kStopped);
+  }
+  if (!extent) {
+    return tl::unexpected(extent.error());
+  }
+  const auto source = open_recording(options.path);
+  if (!source) {
+    return tl::unexpected(source.error());
+  }
+  reading.extent = *extent;
+  reading.bin_s = report_bin_s(extent->samples, extent->seconds, rig.rig.layout.count);
+  auto session = read_recorded_session(
+      **source,
+      {.rig = rig, .estimator = options.estimator, .bin_s = reading.bin_s, .warn = log_warning},
+      stop);
+  if (stop.requested()) {
+    return failure(kStopped);
+  }
+  if (!session) {
+    return tl::unexpected(session.error());
+  }
+  reading.session = std::move(*session);
+  reading.header = (*source)->header();
+  return reading;
+}
+
+/// Fails as reading does, and where a stop is requested on the way.
+tl::expected<Page, Error> make_page(const ReportOptions& options, const RigFile& rig,
+                                    const StopSignal& stop) {
+  const auto rig_toml = read_whole_text(options.rig_path);
+  if (!rig_toml) {
+    return tl::unexpected(rig_toml.error());
+  }
+  auto reading = read_whole(options, rig, stop);
+  if (!reading) {
+    return tl::unexpected(reading.error());
+  }
+  RecordedSession& session = reading->session;
+  std::optional<AnalysedSpan> span;
+  AnalysisFigures figures = analyse(options, rig, reading->header, stop, session.state, span);
+  if (stop.requested()) {
+    return failure(kStopped);
+  }
+  const std::uint64_t samples = reading->extent.samples;
+  if (reading->bin_s > 0) {
+    figures.insert(
+        figures.begin(),
+        {"Shown", fmt::format("the peaks of every {:.2f} s: {} of {} moments", reading->bin_s,
+                              session.rows.size() - session.breaks, samples)});
+  }
+  const LiveSubject subject{.rig = rig,
+                            .rig_name = std::filesystem::path(options.rig_path).stem().string(),
+                            .source = std::filesystem::path(options.path).filename().string(),
+                            .estimator = std::string(estimator_name(options.estimator.kind)),
+                            .header = reading->header};
+  return Page{
+      .html = report_page({.session = session_json(subject, {}),
+                           .state = state_json(subject, session.state, samples),
+                           .recorded = recorded_json(session, span, reading->extent.start_s),
+                           .notes = std::move(session.notes),
+                           .analysis = std::move(figures),
+                           .rig_toml = *rig_toml,
+                           .points = report_points(session.rows, rig.rig.layout.count),
+                           .bin_s = reading->bin_s}),
+      .counts = session.state.counts->text(),
+      .doubtful = session.doubtful};
 }
 
 ExitStatus report(const ReportOptions& options) {
@@ -159,56 +178,22 @@ ExitStatus report(const ReportOptions& options) {
   if (!rig) {
     return log_failure(rig.error());
   }
-  const auto rig_toml = read_whole_text(options.rig_path);
-  if (!rig_toml) {
-    return log_failure(rig_toml.error());
-  }
+  // Lives on while the page is written: that is not left half done.
   const StopSignal stop;
-  const auto extent =
-      open_recording(options.path).and_then([](const auto& source) { return extent_of(*source); });
-  if (!extent) {
-    return log_failure(extent.error());
+  auto page = make_page(options, *rig, stop);
+  if (!page) {
+    return log_failure(page.error());
   }
-  const auto source = open_recording(options.path);
-  if (!source) {
-    return log_failure(source.error());
-  }
-  const double bin_s = report_bin_s(extent->samples, extent->seconds, rig->rig.layout.count);
-  auto recorded = read_recording(options, *rig, **source, bin_s, stop);
-  if (stop.requested()) {
-    return log_failure({"stopped: no report was written"});
-  }
-  if (!recorded) {
-    return log_failure(recorded.error());
-  }
-  AnalysisFigures figures =
-      analysis_of(options, *rig, (*source)->header().acquisition.rate_hz, recorded->state);
-  if (bin_s > 0) {
-    figures.insert(figures.begin(),
-                   {"Shown", fmt::format("the peaks of every {:.2f} s: {} of {} moments", bin_s,
-                                         recorded->rows.size(), extent->samples)});
-  }
-  const LiveSubject subject{.rig = *rig,
-                            .rig_name = std::filesystem::path(options.rig_path).stem().string(),
-                            .source = std::filesystem::path(options.path).filename().string(),
-                            .estimator = std::string(estimator_name(options.estimator.kind)),
-                            .header = (*source)->header()};
   auto file = TextFile::create(options.output_path);
   if (!file) {
     return log_failure(file.error());
   }
-  file->text() = report_page({.session = session_json(subject, {}),
-                              .state = state_json(subject, recorded->state, extent->samples),
-                              .notes = std::move(recorded->notes),
-                              .analysis = std::move(figures),
-                              .rig_toml = *rig_toml,
-                              .points = report_points(recorded->rows, rig->rig.layout.count),
-                              .bin_s = bin_s});
+  file->text() = std::move(page->html);
   if (const auto written = file->flush(); !written) {
     return log_failure(written.error());
   }
-  log_info(recorded->state.counts->text());
-  return options.strict && recorded->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
+  log_info(page->counts);
+  return options.strict && page->doubtful ? ExitStatus::kDoubtful : ExitStatus::kDone;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace penduline {
 struct ReportParts {
   std::string session;
   std::string state;
+  std::string recorded;  ///< see recorded_json
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, std::string>> analysis;  ///< names and values, to be read
   std::string rig_toml;

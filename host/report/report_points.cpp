@@ -2,32 +2,18 @@
 // Columns to bytes, bytes to text.
 #include "host/report/report_points.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 #include <vector>
+
+#include "host/report/base64.hpp"
 
 namespace penduline {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the page reads little-endian numbers");
-
-constexpr std::size_t kByteBits = 8;
-constexpr std::size_t kDigitBits = 6;
-constexpr std::size_t kGroupBytes = 3;
-
-void append_base64(std::string& text, std::string_view bytes) {
-  using Digits =
-      boost::archive::iterators::base64_from_binary<boost::archive::iterators::transform_width<
-          std::string_view::const_iterator, kDigitBits, kByteBits>>;
-  std::copy(Digits(bytes.begin()), Digits(bytes.end()), std::back_inserter(text));
-  text.append((kGroupBytes - bytes.size() % kGroupBytes) % kGroupBytes, '=');
-}
 
 /// `value` of each row, in quotes.
 template <class Number, class Value>

@@ -7,22 +7,8 @@
 
 namespace penduline {
 
-void ReportRows::take(const Sample& sample) {
-  if ((sample.flags & flag::kRestarted) != 0) {
-    event_t_us_ = sample.t_us;
-  }
-  const std::int64_t since_event_us = event_t_us_ ? sample.t_us - *event_t_us_ : 0;
-  event_t_us_ = event_t_us_.value_or(sample.t_us);
-  const std::int64_t host_us = event_host_us_ + since_event_us;
-  time_.follow(sample, host_us);
+void ReportRows::take(const Sample& sample, std::int64_t host_us) {
   waiting_.push_back({.sample = sample, .host_us = host_us});
-}
-
-void ReportRows::take(const RecordingEvent& event) {
-  if (event.utc_us) {
-    event_host_us_ = *event.utc_us;
-    event_t_us_ = waiting_.empty() ? std::nullopt : std::optional(waiting_.back().sample.t_us);
-  }
 }
 
 void ReportRows::take(const Estimate<double>& estimate) {
@@ -45,6 +31,11 @@ void ReportRows::take(const Estimate<double>& estimate) {
   if (!row) {
     return;
   }
+  if (last_s_ && row->t_s - *last_s_ > longest_step_s_) {
+    keeper_.add({.t_s = (*last_s_ + row->t_s) / 2}, kept_);
+    ++breaks_;
+  }
+  last_s_ = row->t_s;
   keeper_.add(*row, kept_);
   note_flags(flag_latest_s_, row->flags, row->t_s);
 }
@@ -52,10 +43,6 @@ void ReportRows::take(const Estimate<double>& estimate) {
 std::vector<LiveRow> ReportRows::finish() {
   keeper_.finish(kept_);
   return std::exchange(kept_, {});
-}
-
-double ReportRows::latest_s() const {
-  return waiting_.empty() ? 0 : time_.at_board_s(waiting_.back().sample.t_us);
 }
 
 double report_bin_s(std::uint64_t samples, double seconds, std::size_t sensors) {

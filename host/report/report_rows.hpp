@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "common/estimate.hpp"
-#include "hal/replay/recording_event.hpp"
 #include "host/flag_times.hpp"
 #include "host/web/live_row.hpp"
 #include "host/web/live_rows.hpp"
@@ -21,20 +21,25 @@ class ReportRows {
  public:
   /// What a browser opens and draws at once.
   static constexpr std::uint64_t kMostRows = 150'000;
+  /// Rows that are further apart, in nominal periods, have a dropout between them: the page's rule.
+  static constexpr double kLongestStep = 3.5;
 
-  /// `bin_s`: see PeakKeeper.
+  /// `bin_s`: see PeakKeeper. Where it thins, a row without answers stands in each dropout, since
+  /// from row to row it may be farther than over one.
   ReportRows(const Rig<double>& rig, const Acquisition<double>& acquisition, double bin_s)
-      : rows_(rig, acquisition), keeper_(bin_s, rig.layout.count) {}
+      : rows_(rig, acquisition),
+        keeper_(bin_s, rig.layout.count),
+        longest_step_s_(bin_s > 0 ? kLongestStep / acquisition.rate_hz
+                                  : std::numeric_limits<double>::infinity()) {}
 
-  void take(const Sample& sample);
+  /// `host_us`: RecordedTime's.
+  void take(const Sample& sample, std::int64_t host_us);
   void take(const Estimate<double>& estimate);
-  /// Its host's time says how long a restart took.
-  void take(const RecordingEvent& event);
   /// All rows that are kept, once.
   [[nodiscard]] std::vector<LiveRow> finish();
 
-  /// The report's time of the sample that was taken last, in seconds.
-  [[nodiscard]] double latest_s() const;
+  /// How many rows stand for dropouts.
+  [[nodiscard]] std::uint64_t breaks() const { return breaks_; }
   /// When each flag of kFlagDescriptions was seen last, where it was, in the report's time.
   [[nodiscard]] const FlagTimes& flag_latest_s() const { return flag_latest_s_; }
 
@@ -46,10 +51,10 @@ class ReportRows {
 
   LiveRows rows_;
   PeakKeeper keeper_;
-  SessionTime time_;  ///< of the newest sample, which is ahead of the rows
+  double longest_step_s_;
+  std::optional<double> last_s_;  ///< the row before
+  std::uint64_t breaks_ = 0;
   std::deque<Waiting> waiting_;
-  std::int64_t event_host_us_ = 0;          ///< host's time of the latest event
-  std::optional<std::int64_t> event_t_us_;  ///< board's time then; none: the board starts anew
   std::vector<LiveRow> kept_;
   FlagTimes flag_latest_s_{};
 };

@@ -28,6 +28,8 @@ class Summary {
   void count_dropped(const std::string& output, std::uint64_t rows);
 
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
+  /// Estimates with angles.
+  [[nodiscard]] std::uint64_t with_angles() const { return with_angles_; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   /// How many estimates had a flag of kFlagDescriptions.
   [[nodiscard]] std::uint64_t flagged(Flags bit) const { return flagged_.of(bit); }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/replay/utc_text.hpp"
+#include "host/web/sensor_now.hpp"
 
 namespace penduline {
 namespace {
@@ -52,25 +53,11 @@ Json sensors_of(const RigFile& file) {
 
 /// Of one sensor in the newest sample.
 Json sensor_state(const LiveSubject& subject, const Sample& sample, std::size_t i) {
-  // The flag is the sample's; a mean near the range's end says whose conversions it were.
-  constexpr double kNearTheEnd = 0.9;
-  if (!sample.has_reading(i)) {
-    return {{"ambient_v", nullptr},
-            {"signal_v", nullptr},
-            {"saturated", false},
-            {"out_of_range", false}};
-  }
-  const Acquisition<double>& acquisition = subject.header->acquisition;
-  const Reading reading = sample.readings[i];
-  const double volts = signal_v(reading, acquisition);
-  const double v_per_count = acquisition.reference_v / acquisition.full_scale_counts;
-  const bool high =
-      std::max(reading.on, reading.off) >= kNearTheEnd * acquisition.full_scale_counts;
-  return {
-      {"ambient_v", reading.off == 0 ? Json() : Json(reading.off * v_per_count)},
-      {"signal_v", volts},
-      {"saturated", (sample.flags & flag::kSaturated) != 0 && high},
-      {"out_of_range", (subject.rig.rig.responses[i].read(volts).flags & flag::kOutOfRange) != 0}};
+  const SensorNow now = sensor_now(subject.rig.rig, subject.header->acquisition, sample, i);
+  return {{"ambient_v", now.ambient_v ? Json(*now.ambient_v) : Json()},
+          {"signal_v", now.signal_v ? Json(*now.signal_v) : Json()},
+          {"saturated", now.saturated},
+          {"out_of_range", now.out_of_range}};
 }
 
 Json flags_of(const LiveState& state) {

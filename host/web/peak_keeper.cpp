@@ -59,9 +59,11 @@ template <class Curve>
 void PeakKeeper::mark_extremes(const Curve& curve, std::vector<bool>& worth) const {
   std::optional<std::size_t> least;
   std::optional<std::size_t> most;
+  std::optional<std::size_t> absent;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const double value = curve(rows_[i]);
     if (std::isnan(value)) {
+      absent = absent.value_or(i);
       continue;
     }
     least = !least || value < curve(rows_[*least]) ? i : *least;
@@ -70,6 +72,9 @@ void PeakKeeper::mark_extremes(const Curve& curve, std::vector<bool>& worth) con
   if (least) {
     worth[*least] = true;
     worth[*most] = true;
+    if (absent) {
+      worth[*absent] = true;
+    }
   }
 }
 

@@ -10,8 +10,9 @@
 namespace penduline {
 
 /// Cuts time into bins and keeps of each the rows with the extremes of both angles and of every
-/// sensor's signal and gap, the first row with each flag, and those between which angles are lost
-/// or there again. What it keeps is as it was.
+/// sensor's signal and gap, of each of these the first without an answer among others, the first
+/// row with each flag, and those between which angles are lost or there again. What it keeps is as
+/// it was.
 class PeakKeeper {
  public:
   /// Bins of 0 s: keeps every row.
@@ -24,7 +25,7 @@ class PeakKeeper {
 
  private:
   void keep(std::vector<LiveRow>& kept) const;
-  /// Marks the rows that have the extremes of the curve.
+  /// Marks the rows that have the extremes of the curve, and the first where it breaks.
   template <class Curve>
   void mark_extremes(const Curve& curve, std::vector<bool>& worth) const;
 

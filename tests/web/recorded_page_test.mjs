@@ -30,7 +30,13 @@ function recording() {
     },
     state: {
       connected: true, samples: kRows, lost: 0, dropouts: 0, restarts: 0, rate_hz: 20, flags: [], sensors: [],
-      clock: null, ellipse: null, period_s: 1.102, amplitude_rad: 0.08, recorded_samples: kRows,
+      clock: null, period_s: 1.102, amplitude_rad: 0.08, recorded_samples: kRows,
+      ellipse: { a_m: 0.024, b_m: 0.001, x_m: 0, y_m: 0, orientation_rad: 1, sense: null },
+    },
+    recorded: {
+      with_angles: kRows - 19, analysed: { from_s: 0, first_swing_to_s: 1.102, to_s: 3600 },
+      sensors: [{ saturated: 12, out_of_range: 3, missing: 0, ambient_v: [0.01, 0.025] },
+        { saturated: 0, out_of_range: 0, missing: 1, ambient_v: [0.02, 0.02] }],
     },
     notes: [{ t_s: 12, utc: null, kind: 'mark', text: '<img src=x onerror=alert(1)>' }],
     analysis: [['Period', '1.1020 s ± 0.0002 s'], ['Q', '<script>alert(2)</script>']],
@@ -83,6 +89,35 @@ test('an hour at 20 Hz opens from a file, whole, without a complaint or a button
   assert.match(await page.textContent('#angles-words'), /θ₁ went from −4\.58° to 4\.58°/);
   assert.deepEqual(await violations(page), []);
   assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('the session is that of the whole recording, and the swing is said to be the first', async () => {
+  const { page } = await openPage(browser, url);
+  await drawn(page);
+  const words = await page.textContent('#session-words');
+  assert.match(words, /Sx was saturated in 12 samples, out of its range in 3 samples, Sy was not read in 1 sample;/);
+  assert.match(words, /Ambient light gave 0\.010 to 0\.025 V at Sx, 0\.020 V at Sy\./);
+  assert.match(words, /19 samples without angles\./);
+  assert.match(await page.innerText('#now'),
+    /Period of small swings\s+1\.102 s\s+Amplitude of the first swing\s+4\.58°/);
+  assert.match(await page.textContent('#above-words'), /^Ellipse of the swing from 0:00\.0 to 0:01\.1: 48\.0 mm by/);
+  await page.close();
+});
+
+test('of very many notes the page says how many it does not show', async () => {
+  const many = recording();
+  many.notes = Array.from({ length: 5003 }, (_, i) => ({ t_s: i, utc: null, kind: 'trigger', text: `edge ${i}` }));
+  const path = join(folder, 'many.html');
+  writeFileSync(path, oneFile(many));
+  const { page } = await openPage(browser, pathToFileURL(path).href);
+  await drawn(page);
+  const items = page.locator('#note-list li');
+  assert.equal(await items.count(), 5000);
+  assert.match(await items.first().textContent(), /edge 5002$/);
+  assert.match(await items.last().textContent(), /edge 3$/);
+  assert.equal(await page.textContent('#older-notes'), '3 older notes not shown.');
+  assert.equal(await page.isVisible('#older-notes'), true);
   await page.close();
 });
 

@@ -13,15 +13,16 @@ export function anglesWords(series, [from, to]) {
   return to > from ? `From ${clock(t[from])} to ${clock(t[to - 1])} ${parts.join(', ')}.` : 'No angles yet.';
 }
 
-/// `ellipse` as `state` has it.
-export function aboveWords(ellipse) {
+/// `ellipse` as `state` has it; `span`: the swing's [from, to] where it is not the latest.
+export function aboveWords(ellipse, span = null) {
   if (!ellipse) {
     return 'No ellipse is fitted.';
   }
   const { a_m, b_m, orientation_rad, sense } = ellipse;
   const way = sense ? `, ${sense === 'left' ? 'anticlockwise' : 'clockwise'}` : '';
   const degrees = ((((orientation_rad * 180) / Math.PI) % 180) + 180) % 180;
-  return `Ellipse of ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, ` +
+  const which = span ? ` of the swing from ${clock(span[0], 1)} to ${clock(span[1], 1)}:` : ' of';
+  return `Ellipse${which} ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, ` +
     `its long axis ${fixed(degrees, 1)}° from x${way}.`;
 }
 

@@ -6,5 +6,7 @@ foreach(name index.html page.js page.css)
   if("${${key}}" MATCHES "\\)PENDULINE_PAGE\"")
     message(FATAL_ERROR "${BUNDLE}/${name}: found the end of its own string literal, expected none")
   endif()
+  # For the Content-Security-Policy of a page that has them inside.
+  string(SHA256 ${key}_sha256 "${${key}}")
 endforeach()
 configure_file(${TEMPLATE} ${OUTPUT} @ONLY)

@@ -12,6 +12,7 @@ struct PageFile {
   std::string_view path;          ///< of the URL: "/", "/page.js" or "/page.css"
   std::string_view content_type;  ///< for the header of that name
   std::string_view text;          ///< UTF-8
+  std::string_view sha256;        ///< of the text, 64 hexadecimal digits
 };
 
 /// "/" first, then what it loads. The page needs nothing else, and nothing from the internet.

@@ -11,27 +11,30 @@ import { Views } from './views.js';
 import { write } from './words.js';
 
 const kLeast_s = 0.2;
+const kMostNotes = 5000; // what a browser lays out at once
 const kKeys = { '+': 0.5, '=': 0.5, '-': 2 };
 
 export class RecordedPage {
-  constructor({ session, state, notes, analysis, rig_toml, points, bin_s = 0 }) {
+  constructor({ session, state, recorded, notes, analysis, rig_toml, points, bin_s = 0 }) {
     const painter = new Painter();
     followTheme(() => painter.changed());
     this.painter = painter;
     const decoded = decodedPoints(points);
-    // The peaks of two bins may be their length apart twice.
-    const largestStep_s = Math.max(3.5 / (session.rate_hz || 20), 2 * bin_s);
+    // Rows that are left of many say themselves where dropouts are, see ReportRows.
+    const largestStep_s = bin_s > 0 ? Infinity : 3.5 / (session.rate_hz || 20);
     this.series = new Series(decoded.t_s.length + 1, session.rig.sensors.length, largestStep_s);
     this.series.append(decoded);
     const { t } = this.series.columns;
     this.whole = this.series.end ? [t[0], this.series.latest_s] : [0, 1];
     this.views = new Views(session, this.series, painter,
       { onZoom: (span) => this.zoom(span ?? this.whole), onMoment: (t_s) => this.showMoment(t_s) });
-    this.showWords(session, state, analysis, rig_toml);
-    const list = new Notes();
-    notes.forEach((note) => list.add(note));
+    this.showWords(session, state, recorded, analysis, rig_toml);
+    const list = new Notes(kMostNotes);
+    list.addAll(notes);
     this.views.scene.marks_s = list.marks_s;
     this.views.scene.ellipse = state.ellipse;
+    const { analysed } = recorded;
+    this.views.scene.ellipseSpan = analysed && [analysed.from_s, analysed.first_swing_to_s];
     for (const plot of document.querySelectorAll('.plot')) {
       plot.tabIndex = 0;
       plot.addEventListener('keydown', (event) => this.key(event));
@@ -39,13 +42,13 @@ export class RecordedPage {
     this.zoom(this.whole);
   }
 
-  showWords(session, state, analysis, rigToml) {
+  showWords(session, state, recorded, analysis, rigToml) {
     write(document.getElementById('origin'), [session.rig.name, session.source].filter(Boolean).join(' · '));
     write(document.getElementById('program'), session.program);
     write(document.getElementById('connection'), 'A recording');
     document.title = `Penduline · ${session.source}`;
     showSwing(state);
-    showSession(session, state);
+    showSession(session, state, recorded);
     write(document.getElementById('rig-text'), rigToml);
     const body = document.getElementById('analysis-rows');
     for (const [name, value] of analysis) {

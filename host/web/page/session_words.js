@@ -2,10 +2,11 @@
 // The state of the session in sentences.
 import { clock, count, fixed, write } from './words.js';
 
-/// Shows `session` and `state` as a list of terms and sentences; what did not change is left alone.
-export function showSession(session, state) {
+/// Shows `session` and `state` as a list of terms and sentences; what did not change is left alone. Of a recording
+/// `recorded` says what all of it has come to.
+export function showSession(session, state, recorded = null) {
   const list = document.getElementById('session-words');
-  const rows = sentences(session, state);
+  const rows = sentences(session, state, recorded);
   while (list.children.length > rows.length) {
     list.lastElementChild.remove();
   }
@@ -23,11 +24,15 @@ function emptyRow() {
 }
 
 /// Pairs of a term and a sentence.
-export function sentences(session, state) {
+export function sentences(session, state, recorded = null) {
   const rows = [['Board', boardSentence(session, state)], ['Rate', rateSentence(session, state)],
     ['Samples', samplesSentence(state)]];
-  const sensors = state.sensors ?? [];
-  if (sensors.length) {
+  if (recorded) {
+    rows.push(['Angles', recordedAnglesSentence(state, recorded)],
+      ['Light', recordedLightSentence(session, recorded.sensors)],
+      ['Signals', recordedSignalSentence(session, recorded.sensors)]);
+  } else if (state.sensors?.length) {
+    const { sensors } = state;
     rows.push(['Light', lightSentence(session, sensors)], ['Signals', signalSentence(session, sensors)]);
   }
   if (state.flags?.length) {
@@ -77,6 +82,28 @@ function signalSentence({ rig, reference_v }, sensors) {
   const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
     ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
   const trouble = troubles.length ? troubles.join('; ') : 'None is saturated or out of its range';
+  return Number.isFinite(reference_v) ? `${trouble}; full scale is ${fixed(reference_v, 2)} V.` : `${trouble}.`;
+}
+
+function recordedAnglesSentence({ samples }, { with_angles }) {
+  const without = samples - with_angles;
+  return without === 0 ? 'Every sample has angles.' : capital(`${count(without, 'sample')} without angles.`);
+}
+
+function recordedLightSentence({ rig }, sensors) {
+  const measured = sensors.map(({ ambient_v }, i) => [rig.sensors[i]?.name ?? i + 1, ambient_v])
+    .filter(([, ambient_v]) => ambient_v !== null)
+    .map(([name, ends]) => `${[...new Set(ends.map((volts) => fixed(volts, 3)))].join(' to ')} V at ${name}`);
+  return measured.length ? `Ambient light gave ${measured.join(', ')}.` : 'Ambient light was not measured.';
+}
+
+function recordedSignalSentence({ rig, reference_v }, sensors) {
+  const troubles = sensors.flatMap(({ saturated, out_of_range, missing }, i) => [
+    ...(saturated ? [`saturated in ${count(saturated, 'sample')}`] : []),
+    ...(out_of_range ? [`out of its range in ${count(out_of_range, 'sample')}`] : []),
+    ...(missing ? [`not read in ${count(missing, 'sample')}`] : []),
+  ].map((trouble, n) => (n === 0 ? `${rig.sensors[i]?.name ?? i + 1} was ${trouble}` : trouble)));
+  const trouble = troubles.length ? troubles.join(', ') : 'None was saturated or out of its range in any sample';
   return Number.isFinite(reference_v) ? `${trouble}; full scale is ${fixed(reference_v, 2)} V.` : `${trouble}.`;
 }
 

@@ -15,8 +15,9 @@ export class Views {
     this.series = series;
     this.painter = painter;
     this.sensors = session.rig.sensors;
-    /// What is shown: from and to (s), the moment of the mass (s), marks (s), the ellipse of `state`.
-    this.scene = { span: [0, 1], trailFrom_s: 0, moment_s: NaN, marks_s: [], ellipse: null };
+    /// What is shown: from and to (s), the moment of the mass (s), marks (s), the ellipse of `state`,
+    /// and when that was, where it is not the latest.
+    this.scene = { span: [0, 1], trailFrom_s: 0, moment_s: NaN, marks_s: [], ellipse: null, ellipseSpan: null };
     this.section = (id) => document.getElementById(id);
     this.addAngles(choices);
     this.addSensors(choices);
@@ -94,7 +95,7 @@ export class Views {
     const rows = [series.rowAt(scene.span[0]), Math.min(series.end, series.rowAt(scene.span[1]) + 1)];
     const [, , now] = this.trail();
     write(this.section('angles-words'), anglesWords(series, rows));
-    write(this.section('above-words'), aboveWords(scene.ellipse));
+    write(this.section('above-words'), aboveWords(scene.ellipse, scene.ellipseSpan));
     write(this.section('gaps-words'), gapsWords(series, now, sensors));
     write(this.section('signals-words'), signalsWords(series, now, sensors));
     write(this.section('space-words'), spaceWords(series, now, this.space.camera.direction));

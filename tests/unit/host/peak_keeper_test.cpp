@@ -41,6 +41,14 @@ TEST_CASE("Of curves that rise through a bin its first and last row are kept", "
   CHECK(kept_places(rising_rows(60)) == std::vector<int>{0, 19, 20, 39, 40, 59});
 }
 
+TEST_CASE("Of each curve that breaks in a bin a row without its answer is kept", "[web]") {
+  auto rows = rising_rows(20);
+  rows[5].gap_m[1] = kNotKnown;
+  rows[6].gap_m[1] = kNotKnown;
+  rows[11].signal_v[0] = kNotKnown;
+  CHECK(kept_places(rows) == std::vector<int>{0, 5, 11, 19});
+}
+
 TEST_CASE("A peak of one row is kept, whichever curve it is in", "[web]") {
   auto rows = rising_rows(20);
   SECTION("the first angle") {

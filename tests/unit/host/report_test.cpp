@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/report/recorded_time.hpp"
 #include "host/report/report_page.hpp"
 #include "host/report/report_points.hpp"
 #include "host/report/report_rows.hpp"
@@ -36,7 +37,7 @@ TEST_CASE("Estimates that come long after their samples stand beside them", "[re
   const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   ReportRows rows(rig.rig, kAcquisition, 0);
   for (int i = 0; i < 500; ++i) {
-    rows.take(sample(i));
+    rows.take(sample(i), 0);
   }
   for (int i = 0; i < 500; ++i) {
     rows.take(estimate(i));
@@ -52,14 +53,16 @@ TEST_CASE("Estimates that come long after their samples stand beside them", "[re
 TEST_CASE("After a restart the time goes on by the events' clock", "[report]") {
   const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   ReportRows rows(rig.rig, kAcquisition, 0);
-  rows.take(RecordingEvent{.kind = "pong", .utc_us = 1'000'000'000});
+  RecordedTime time;
+  const auto take = [&](const Sample& one) { rows.take(one, time.follow(one)); };
+  time.follow(RecordingEvent{.kind = "pong", .utc_us = 1'000'000'000});
   for (int i = 0; i < 100; ++i) {
-    rows.take(sample(i));
+    take(sample(i));
   }
   // The last sample was 4.95 s after the event; the board is back 2 s later.
-  rows.take(RecordingEvent{.kind = "boot", .utc_us = 1'006'950'000});
-  rows.take(sample(0, flag::kRestarted));
-  rows.take(sample(1));
+  time.follow(RecordingEvent{.kind = "boot", .utc_us = 1'006'950'000});
+  take(sample(0, flag::kRestarted));
+  take(sample(1));
   for (int i = 0; i < 100; ++i) {
     rows.take(estimate(i));
   }
@@ -72,6 +75,51 @@ TEST_CASE("After a restart the time goes on by the events' clock", "[report]") {
   CHECK(kept[100].t_s == Approx(6.95));
   CHECK(kept[100].signal_v[0] == Approx(signal_of(0)));
   CHECK(kept[101].t_s == Approx(7.0));
+}
+
+TEST_CASE("An event without the board's time stands at the host's, never before it happened",
+          "[report]") {
+  RecordedTime time;
+  time.follow(RecordingEvent{.kind = "connected", .utc_us = 1'000'000'000});
+  time.follow(sample(0));
+  time.follow(sample(1));  // 50 ms after the event
+  CHECK(time.moment_s({.kind = "mark"}) == Approx(0.05));
+  CHECK(time.moment_s({.kind = "mark", .utc_us = 1'000'300'000}) == Approx(0.3));
+  CHECK(time.moment_s({.kind = "mark", .utc_us = 1'000'010'000}) == Approx(0.05));
+  const RecordingEvent dated{
+      .kind = "mark", .utc_us = 1'000'300'000, .fields = {{"t_us", std::int64_t{60'000}}}};
+  CHECK(time.moment_s(dated) == Approx(0.01));
+  time.follow(RecordingEvent{.kind = "boot"});
+  CHECK_FALSE(time.moment_s(dated));
+}
+
+TEST_CASE("Where rows are thinned, one without answers stands in each dropout", "[report]") {
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  constexpr double kBinS = 10;
+  ReportRows rows(rig.rig, kAcquisition, kBinS);
+  for (int i = 0; i < 100; ++i) {
+    if ((i >= 40 && i < 44) || (i >= 60 && i < 62)) {
+      continue;  // five periods from row to row, and three, which may be a pause
+    }
+    rows.take(sample(i), 0);
+    Estimate<double> one = estimate(i);
+    one.attitude.emplace();
+    one.attitude->angles.theta1_rad = 0.001 * i;
+    rows.take(one);
+  }
+  CHECK(rows.breaks() == 1);
+  std::vector<double> times;
+  std::vector<bool> answers;
+  for (const LiveRow& row : rows.finish()) {
+    times.push_back(row.t_s);
+    answers.push_back(!std::isnan(row.theta1_rad));
+  }
+  // The curves rise: the ends, and what stands beside the dropout.
+  REQUIRE(times.size() == 5);
+  CHECK(times[1] == Approx(0.05 * 39));
+  CHECK(times[2] == Approx(0.05 * 41.5));
+  CHECK(times[3] == Approx(0.05 * 44));
+  CHECK(answers == std::vector<bool>{true, true, false, true, true});
 }
 
 TEST_CASE("Only very long recordings are thinned", "[report]") {
@@ -94,6 +142,7 @@ TEST_CASE("Nothing in a recording ends the script that it stands in", "[report]"
   const std::string mischief = "</script><script>alert(1)</script>";
   const std::string html = report_page({.session = "{}",
                                         .state = "{}",
+                                        .recorded = "{}",
                                         .notes = {},
                                         .analysis = {{"Q", mischief}},
                                         .rig_toml = mischief,

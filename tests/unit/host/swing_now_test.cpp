@@ -52,6 +52,21 @@ TEST_CASE("A circle has a period, too, whichever way it goes", "[web]") {
   CHECK(swing_now(swinging(0.1, -0.1, 0), kLengthM)->period_s == Approx(kPeriodS).epsilon(0.002));
 }
 
+TEST_CASE("A path's axis is counted from 0 to half a turn, about where the pendulum rests",
+          "[web]") {
+  SwingEllipse swing;
+  swing.semi_major_rad = {.value = 0.1};
+  swing.semi_minor_rad = {.value = -0.02, .sigma = 0.008};
+  swing.orientation_rad = {.value = -0.5};
+  swing.centre = {.x_rad = 0.01, .y_rad = -0.02};
+  const PathEllipse path = path_of(swing, kLengthM);
+  CHECK(path.orientation_rad == Approx(std::numbers::pi - 0.5));
+  CHECK(path.b_m == Approx(kLengthM * std::sin(0.02)));
+  CHECK(path.x_m == Approx(kLengthM * std::sin(0.01)));
+  CHECK(path.y_m == Approx(-kLengthM * std::sin(0.02)));
+  CHECK(path.sense == 0);  // 2.5 sigmas
+}
+
 TEST_CASE("The other way round is the other sense", "[web]") {
   CHECK(swing_now(swinging(0.1, -0.03, 0.6), kLengthM)->ellipse.sense == -1);
 }
