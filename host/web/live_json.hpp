@@ -40,7 +40,7 @@ struct LiveSubject {
 
 /// How the session stands.
 struct LiveState {
-  bool connected = false;
+  bool connected = true;
   std::optional<Summary> counts{};
   FlagTimes flag_latest_s{};       ///< of what was counted
   std::optional<Sample> sample{};  ///< the newest

@@ -25,6 +25,7 @@ LivePage::LivePage(LiveFeed& feed, LiveSubject subject, std::function<RecordingS
       rows_(subject_.rig.rig, {}),
       keeper_(bin_s({}), subject_.rig.rig.layout.count),
       points_(subject_.rig.rig.layout.count) {
+  state_.connected = subject_.header.has_value();
   if (const auto header = subject_.header) {
     take_header(*header);
   }

@@ -71,10 +71,19 @@ TEST_CASE("A recording under way has name and start", "[web]") {
 
 TEST_CASE("Names that are no UTF-8 are still JSON, on one line", "[web]") {
   LiveSubject odd = subject();
-  odd.header.board = "a\xff\n</script>";
+  odd.header->board = "a\xff\n</script>";
   const std::string text = session_json(odd, {});
   CHECK(text.find('\n') == std::string::npos);
   CHECK(Json::parse(text)["board"] == "a\xef\xbf\xbd\n</script>");
+}
+
+TEST_CASE("Before there is a board its rate is not known", "[web]") {
+  LiveSubject waiting = subject();
+  waiting.header.reset();
+  const auto json = Json::parse(session_json(waiting, {}));
+  for (const char* key : {"board", "firmware", "serial", "rate_hz", "reference_v"}) {
+    CHECK(json[key].is_null());
+  }
 }
 
 TEST_CASE("Before the first sample nothing is claimed", "[web]") {
