@@ -19,19 +19,13 @@ BUILD = pathlib.Path(sys.argv[1]).resolve()
 os.environ["PENDULINE"] = str(BUILD / "penduline")
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "program"))
 
-from live_run import Run  # noqa: E402: it wants to know the program
+from core_time import core_seconds  # noqa: E402: it wants to know the program
+from live_run import Run  # noqa: E402
 from program import RIGS  # noqa: E402
 from sim_board import SimBoard  # noqa: E402
 
 WINDOW_S = 556e-6
-TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 SETTLING_S = 2
-
-
-def core_seconds(process):
-    """What a process has taken of the processor so far."""
-    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / TICKS_PER_S
 
 
 class Rig:

@@ -92,7 +92,16 @@ def print_live(runs):
           f"{run['lost'] + run['rows_missing']:,}"] for name, run in runs.items()])
 
 
-def print_bars(solvers, parts, replays):
+def print_viewers(runs):
+    print_table(
+        "Live page: a run's share of a core, all included; what a viewer gets",
+        ["rate, viewers", "share", "kB/s each"],
+        [[name, f"{run['core_share']:.2%}",
+          f"{run['bytes_per_viewer_s'] / 1e3:.1f}" if run["viewers"] else "-"]
+         for name, run in runs.items()])
+
+
+def print_bars(solvers, parts, replays, watched):
     def ratio_to(name, mode=""):
         return solvers[name + mode]["s_per_solve"] / solvers[OURS + mode]["s_per_solve"]
 
@@ -106,6 +115,7 @@ def print_bars(solvers, parts, replays):
                if name.startswith("1000000/"))
     step_s = max(run["s_per_row"] for name, run in parts.items() if name.startswith("ekf/"))
     peaks = [run["peak_kib"] / 1024 for run in replays.values()]
+    ten_viewers = watched["20 Hz, 10 viewers"]["core_share"]
     scipy, octave = (ratio_to(f"{peer}_fsolve/from_zero") for peer in ("scipy", "octave"))
     bars = [
         ("Gauss-Newton against the fastest TinySolver", times(tiny), "10", tiny >= 10),
@@ -117,6 +127,8 @@ def print_bars(solvers, parts, replays):
         ("replay of a million rows, million samples/s", f"{rate / 1e6:.2f}", "1", rate >= 1e6),
         ("replay's peak memory, MiB, least and greatest", f"{min(peaks):.1f}-{max(peaks):.1f}",
          "alike", max(peaks) < 1.1 * min(peaks)),
+        ("a run at 20 Hz with 10 viewers, share of a core", f"{ten_viewers:.2%}", "5%",
+         ten_viewers < 0.05),
     ]
     print_table("Bars", ["", "measured", "bar", ""],
                 [[what, measured, bar, {True: "holds", False: "MISSED", None: ""}[held]]
@@ -140,10 +152,12 @@ def main():
     parts = medians("pipeline.json")
     print_replay(parts, replays)
     print_live(lines(path("live.jsonl")))
+    watched = lines(path("viewers.jsonl"))
+    print_viewers(watched)
     spread = sorted(spreads("inverse.json") + spreads("fir.json") + spreads("pipeline.json"))
     print(f"\nSpread of the repetitions: {spread[len(spread) // 2]:.1%} in the middle, "
           f"{spread[-1]:.1%} at worst")
-    print_bars(solvers, parts, replays)
+    print_bars(solvers, parts, replays, watched)
 
 
 if __name__ == "__main__":
