@@ -56,8 +56,9 @@ def measure(rate_hz, viewers):
     status, said = run.end()
     if status != 0 or not any(" 0 lost, " in line for line in said):
         print("\n".join(said), file=sys.stderr)
-    return {"name": f"{rate_hz} Hz, {viewers} viewer{'s' * (viewers != 1)}", "rate_hz": rate_hz, "viewers": viewers,
-            "core_share": share, "bytes_per_viewer_s": received / taken_s / max(viewers, 1)}
+    name = f"{rate_hz} Hz, {viewers} viewer{'s' * (viewers != 1)}"
+    return {"name": name, "rate_hz": rate_hz, "viewers": viewers, "core_share": share,
+            "bytes_per_viewer_s": received / taken_s / max(viewers, 1)}
 
 
 def main():
