@@ -22,7 +22,7 @@ tl::expected<void, Error> RecordingSwitch::start() {
       return failure("A recording is under way already, in " + recorder_->present_name() + ".");
     }
     if (!header_) {
-      return failure("There are no samples yet: a recording can begin once the board is there.");
+      return failure(kNoSamplesYet);
     }
     header = *header_;
   }

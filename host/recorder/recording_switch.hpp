@@ -18,6 +18,9 @@
 
 namespace penduline {
 
+/// Why there is nothing to record or to mark.
+inline constexpr const char* kNoSamplesYet = "There are no samples yet: the board is not there.";
+
 /// The disk is waited for by who starts and stops, never by who hands on samples, but for recorders
 /// that wait themselves (RecordingQueue::WhenFull::kWait).
 class RecordingSwitch {

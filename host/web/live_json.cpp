@@ -60,10 +60,16 @@ Json sensor_state(const LiveSubject& subject, const Sample& sample, std::size_t 
           {"out_of_range", now.out_of_range}};
 }
 
+/// The session's first sample may be the first of its start as well: that is no restart.
+std::uint64_t count_of(const LiveState& state, Flags bit) {
+  const std::uint64_t count = state.counts->flagged(bit);
+  return bit == flag::kRestarted && state.began_with_start && count > 0 ? count - 1 : count;
+}
+
 Json flags_of(const LiveState& state) {
   Json flags = Json::array();
   for (std::size_t i = 0; i < kFlagDescriptions.size(); ++i) {
-    const std::uint64_t count = state.counts->flagged(kFlagDescriptions[i].bit);
+    const std::uint64_t count = count_of(state, kFlagDescriptions[i].bit);
     if (count > 0) {
       flags.push_back({{"name", kFlagDescriptions[i].name},
                        {"count", count},
@@ -128,8 +134,7 @@ std::string state_json(const LiveSubject& subject, const LiveState& state,
     json["samples"] = state.counts->samples();
     json["lost"] = state.counts->lost();
     json["dropouts"] = state.counts->flagged(flag::kDropout);
-    const std::uint64_t starts = state.counts->flagged(flag::kRestarted);
-    json["restarts"] = starts - (state.began_with_start && starts > 0 ? 1 : 0);
+    json["restarts"] = count_of(state, flag::kRestarted);
     json["rate_hz"] = rate_hz ? Json(*rate_hz) : Json();
     json["flags"] = flags_of(state);
   } else {
@@ -141,7 +146,8 @@ std::string state_json(const LiveSubject& subject, const LiveState& state,
                  {"flags", Json::array()}});
   }
   json["sensors"] = Json::array();
-  for (std::size_t i = 0; state.sample && i < subject.rig.rig.layout.count; ++i) {
+  for (std::size_t i = 0; state.connected && state.sample && i < subject.rig.rig.layout.count;
+       ++i) {
     json["sensors"].push_back(sensor_state(subject, *state.sample, i));
   }
   json["clock"] = text_or_null(state.clock);

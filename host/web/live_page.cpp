@@ -134,7 +134,8 @@ void LivePage::tell_state(Clock::time_point now) {
   }
   state_changed_ = false;
   state_told_at_ = now;
-  state_.swing = swing_now(points_.rows(), subject_.rig.rig.pendulum.length_m);
+  state_.swing =
+      state_.connected ? swing_now(points_.rows(), subject_.rig.rig.pendulum) : std::nullopt;
   state_text_ = event_text("state", state_json(subject_, state_, recorded_samples_));
   events_.add(state_text_);
 }

@@ -29,6 +29,11 @@ AngleSeries last_angles(const std::deque<LiveRow>& rows, double span_s) {
   return series;
 }
 
+/// 0 where none is known.
+double largest_sigma_rad(const LiveRow& row) {
+  return std::fmax(0, std::fmax(row.sigma1_rad, row.sigma2_rad));
+}
+
 /// Where the mass is on its way round, in radians. That of a wide ellipse is counted from X: a
 /// circle has no axis to count from.
 double way_rad(const SwingEllipse& swing, bool wide) {
@@ -51,9 +56,12 @@ PathEllipse path_of(const SwingEllipse& swing, double length_m) {
           .sense = has_width ? (width > 0 ? 1 : -1) : 0};
 }
 
-std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length_m, double span_s) {
+std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, const Pendulum<double>& pendulum,
+                                  double span_s) {
   constexpr std::size_t kFewestRows = 16;
   constexpr double kLeastOfResidual = 4;
+  constexpr double kLeastOfSigma = 3;
+  constexpr double kFastestOfSmallSwings = 2;
   constexpr double kWideFromRatio = 0.5;
   if (rows.empty()) {
     return std::nullopt;
@@ -63,7 +71,7 @@ std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length
     return std::nullopt;
   }
   const double roughly_s = strongest_period_s(series);
-  if (!(roughly_s > 0)) {
+  if (!(roughly_s * kFastestOfSmallSwings * small_swing_hz(pendulum) > 1)) {
     return std::nullopt;
   }
   const std::vector<SwingEllipse> swings = swing_ellipses(
@@ -76,8 +84,10 @@ std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length
   const bool wide =
       std::abs(last.semi_minor_rad.value) > kWideFromRatio * last.semi_major_rad.value;
   const double turned_rad = way_rad(last, wide) - way_rad(first, wide);
+  const double least_rad = kLeastOfSigma * largest_sigma_rad(rows.back());
   const auto swings_freely = [&](const SwingEllipse& swing) {
-    return swing.semi_major_rad.value > kLeastOfResidual * swing.residual_rad;
+    return swing.semi_major_rad.value > kLeastOfResidual * swing.residual_rad &&
+           swing.semi_major_rad.value > least_rad;
   };
   // Noise has a strongest period too, but is no ellipse of it.
   if (!swings_freely(first) || !swings_freely(last) || !(turned_rad > 0)) {
@@ -85,7 +95,7 @@ std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length
   }
   return SwingNow{.period_s = 2 * std::numbers::pi * (last.t_s - first.t_s) / turned_rad,
                   .amplitude_rad = last.semi_major_rad.value,
-                  .ellipse = path_of(last, length_m)};
+                  .ellipse = path_of(last, pendulum.length_m)};
 }
 
 }  // namespace penduline

@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "common/dynamics.hpp"
 #include "host/analysis/swing_ellipse.hpp"
 #include "host/web/live_row.hpp"
 
@@ -32,8 +33,10 @@ struct SwingNow {
 };
 
 /// Of the last `span_s` seconds; none where they have less than two swings that are ellipses, as at
-/// rest or while a hand moves the pendulum.
-[[nodiscard]] std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows, double length_m,
+/// rest or while a hand moves the pendulum. What is faster than twice the pendulum's small swings,
+/// or within three standard uncertainties of its angles, is taken for noise.
+[[nodiscard]] std::optional<SwingNow> swing_now(const std::deque<LiveRow>& rows,
+                                                const Pendulum<double>& pendulum,
                                                 double span_s = 8);
 
 }  // namespace penduline

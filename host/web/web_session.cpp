@@ -27,8 +27,6 @@ class LiveOutput final : public Output {
   LiveFeed& feed_;
 };
 
-constexpr const char* kNoSamplesYet = "There are no samples yet: the board is not there.";
-
 /// What a viewer is not told: it happens every second.
 bool is_routine(const RecordingEvent& event) {
   return event.kind == event::kPong;

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { rowsToDraw } from '../../host/web/page/decimate.js';
 import { roundStep, roundUp, SteadyReach } from '../../host/web/page/reach.js';
 import { Series } from '../../host/web/page/series.js';
-import { clock, count, fixed, ticks } from '../../host/web/page/words.js';
+import { clock, count, fixed, ticks, typeset } from '../../host/web/page/words.js';
 
 /** A `points` event of the moments `t_s`; theta1 is `value(t)` rad, all else 0. */
 function points(t_s, value = () => 0) {
@@ -92,7 +92,12 @@ test('numbers have a real minus sign, fixed decimals and one width', () => {
 
 test('times and counts read as people say them', () => {
   assert.deepEqual([0, 65, 3725].map((t) => clock(t)), ['0:00', '1:05', '1:02:05']);
-  assert.deepEqual([clock(59.97, 1), clock(-3, 0), clock(NaN)], ['1:00.0', '\u22120:03', '–']);
+  assert.deepEqual([clock(59.97, 1), clock(-3, 0), clock(-0.2), clock(NaN)], ['1:00.0', '\u22120:03', '0:00', '–']);
   assert.deepEqual([0, 1, 1234567].map((number) => count(number, 'sample')),
     ['no samples', '1 sample', '1\u202f234\u202f567 samples']);
+});
+
+test('what the program prints in plain text gets its signs and powers', () => {
+  assert.equal(typeset('9.8127 +- 0.0021 m/s2, length -3'), '9.8127 ± 0.0021 m/s², length \u22123');
+  assert.equal(typeset('T (1 + a^2/16), 2026-11-22'), 'T (1 + a²/16), 2026-11-22');
 });

@@ -92,7 +92,7 @@ test('an hour at 20 Hz opens from a file, whole, without a complaint or a button
   await page.close();
 });
 
-test('the session is that of the whole recording, and the swing is said to be the first', async () => {
+test('the session is that of the whole recording, and the swing is said to be the one at its time', async () => {
   const { page } = await openPage(browser, url);
   await drawn(page);
   const words = await page.textContent('#session-words');
@@ -100,7 +100,7 @@ test('the session is that of the whole recording, and the swing is said to be th
   assert.match(words, /Ambient light gave 0\.010 to 0\.025 V at Sx, 0\.020 V at Sy\./);
   assert.match(words, /19 samples without angles\./);
   assert.match(await page.innerText('#now'),
-    /Period of small swings\s+1\.102 s\s+Amplitude of the first swing\s+4\.58°/);
+    /Period of small swings\s+1\.102 s\s+Amplitude of the swing at 0:00\.0\s+4\.58°/);
   assert.match(await page.textContent('#above-words'), /^Ellipse of the swing from 0:00\.0 to 0:01\.1: 48\.0 mm by/);
   await page.close();
 });

@@ -47,7 +47,7 @@ test('an hour opens at once, with what an analysis finds, and nobody is left out
   const [from_s, to_s] = (await axesOf(page, 'angles')).t_s;
   assert.ok(from_s < 1 && Math.abs(to_s - 3600) < 1, `${from_s} s to ${to_s} s`);
   const figures = await page.locator('#analysis-rows tr').allTextContents();
-  assert.ok(figures.some((text) => /^Period: of small swings\d\.\d+ \+- \d\.\d+ s$/.test(text)), figures.join('\n'));
+  assert.ok(figures.some((text) => /^Period: of small swings\d\.\d+ ± \d\.\d+ s$/.test(text)), figures.join('\n'));
   assert.equal(await page.textContent('#rig-text'), readFileSync(kRig, 'utf8'));
   assert.match(await page.textContent('#period'), /^\d\.\d+ s$/);
   assert.deepEqual(await violations(page), []);

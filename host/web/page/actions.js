@@ -72,6 +72,9 @@ export class Actions {
     if (!this.connected) {
       return 'Waiting for the program.';
     }
+    if (this.session?.rate_hz === null) {
+      return 'Waiting for the board.';
+    }
     if (this.session?.token_needed && !this.token) {
       return 'To record and mark, open the address that the program printed; it ends in a token.';
     }

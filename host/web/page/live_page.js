@@ -25,6 +25,7 @@ export class LivePage {
     this.state = null;
     this.views = null;
     this.fresh = true;
+    this.hadBoard = false;
     this.readout_ms = -Infinity;
     followTheme(() => this.painter.changed());
     followLive({
@@ -91,10 +92,12 @@ export class LivePage {
       this.connection('live', 'Live');
     } else {
       this.connection('waiting', 'The board is not there; waiting for it');
+      showAngles(this.series, -1);
     }
     if (was === false && state.connected) {
-      this.announce('The board is back.');
+      this.announce(this.hadBoard ? 'The board is back.' : 'The board is there.');
     }
+    this.hadBoard ||= state.connected;
     this.views.scene.ellipse = state.ellipse;
     showSwing(state);
     showSession(this.session, state);

@@ -8,7 +8,7 @@ import { Series } from './series.js';
 import { showSession } from './session_words.js';
 import { followTheme } from './theme.js';
 import { Views } from './views.js';
-import { write } from './words.js';
+import { clock, typeset, write } from './words.js';
 
 const kLeast_s = 0.2;
 const kMostNotes = 5000; // what a browser lays out at once
@@ -48,6 +48,9 @@ export class RecordedPage {
     write(document.getElementById('connection'), 'A recording');
     document.title = `Penduline · ${session.source}`;
     showSwing(state);
+    if (recorded.analysed) {
+      write(document.getElementById('amplitude-span'), `at ${clock(recorded.analysed.from_s, 1)}`);
+    }
     showSession(session, state, recorded);
     write(document.getElementById('rig-text'), rigToml);
     const body = document.getElementById('analysis-rows');
@@ -55,9 +58,9 @@ export class RecordedPage {
       const row = body.insertRow();
       const head = document.createElement('th');
       head.scope = 'row';
-      head.textContent = name;
+      head.textContent = typeset(name);
       row.append(head);
-      row.insertCell().textContent = value;
+      row.insertCell().textContent = typeset(value);
     }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of the session in sentences.
-import { clock, count, fixed, write } from './words.js';
+import { clock, count, fixed, typeset, write } from './words.js';
 
 /// Shows `session` and `state` as a list of terms and sentences; what did not change is left alone. Of a recording
 /// `recorded` says what all of it has come to.
@@ -39,7 +39,7 @@ export function sentences(session, state, recorded = null) {
     rows.push(['Flags', flagsSentence(state.flags)]);
   }
   if (state.clock) {
-    rows.push(['Clock', capital(state.clock)]);
+    rows.push(['Clock', capital(typeset(state.clock))]);
   }
   rows.push(['Rig', rigSentence(session)]);
   return rows;

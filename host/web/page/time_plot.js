@@ -10,6 +10,7 @@ const kAxisFont_px = 12;
 const kHeightOfXAxis_px = 26;
 const kHeightOfXLabel_px = 16;
 const kWidthOfYAxis_px = 46;
+const kGapOfYAxis_px = 8;
 const kTimeSteps_s = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200,
   14400];
 
@@ -28,6 +29,7 @@ export class TimePlot {
     this.span = [0, 1];
     this.reach = [0, 1];
     this.marks_s = [];
+    this.axis_px = kWidthOfYAxis_px;
     this.plot = new uPlot(this.options(), this.empty(), this.host);
     this.showKey();
   }
@@ -55,7 +57,7 @@ export class TimePlot {
         { ...axis, grid: { show: false }, size: kHeightOfXAxis_px, gap: 4, space: 70, incrs: kTimeSteps_s,
           label: 'time since the start, min:s', labelSize: kHeightOfXLabel_px, labelFont: axis.font, labelGap: 0,
           values: (u, moments) => this.timeTicks(moments) },
-        { ...axis, grid, size: kWidthOfYAxis_px, gap: 8, space: 40,
+        { ...axis, grid, size: (u, labels) => this.widthOfYAxis(u, labels), gap: kGapOfYAxis_px, space: 40,
           values: (u, values) => ticks(values).map((text) => `${text}${this.description.tickUnit}`) },
       ],
       cursor: {
@@ -67,6 +69,16 @@ export class TimePlot {
         setCursor: [(u) => this.showKey(u.cursor.idx)], setSelect: [(u) => this.zoom(u)],
       },
     };
+  }
+
+  /// It grows to the widest label so far: an axis that shrinks again would move the plot.
+  widthOfYAxis(u, labels) {
+    u.ctx.save();
+    u.ctx.font = u.axes[1].font[0];
+    const widest_px = Math.max(0, ...(labels ?? []).map((label) => u.ctx.measureText(label).width)) / devicePixelRatio;
+    u.ctx.restore();
+    this.axis_px = Math.max(this.axis_px, Math.ceil(widest_px) + kGapOfYAxis_px + 4);
+    return this.axis_px;
   }
 
   size() {

@@ -22,6 +22,9 @@ export class TopView {
       const distance = Math.hypot(x[row], y[row]);
       farthest = distance <= farthest || Number.isNaN(distance) ? farthest : distance;
     }
+    if (ellipse) {
+      farthest = Math.max(farthest || 0, 1000 * (Math.hypot(ellipse.x_m, ellipse.y_m) + ellipse.a_m));
+    }
     const reach = this.steady.fit(farthest);
     const scale = (Math.min(width, height) / 2 - kMargin_px) / reach;
     const place = (x_mm, y_mm) => ({ x: width / 2 + x_mm * scale, y: height / 2 - y_mm * scale });

@@ -45,15 +45,18 @@ export class Views {
       this.sensors.map((sensor) => ends(sensor.signal_range_v, 1)));
   }
 
-  /// Spans the valid ranges, and what is measured beyond them.
+  /// Spans the valid ranges, and what is measured beyond them: by half of all that is valid at most, for a response
+  /// says nothing of what lies farther out.
   addSensorPlot(id, column, description, ranges) {
     const curves = this.sensors.map((sensor, i) => ({ column: `${column}${i}`, label: sensor.name }));
     const wide = new SteadyReach(0.01, 1.04);
+    const [bottom, top] = widened(ranges);
     this.addPlot(id, {
       ...description, curves, ranges,
       reach: (series, from, to) => {
         const measured = curves.flatMap((curve) => series.extremes(curve.column, from, to));
-        const all = [...ranges.flat(), ...measured].filter(Number.isFinite);
+        const shown = measured.filter(Number.isFinite).map((value) => Math.max(bottom, Math.min(top, value)));
+        const all = [...ranges.flat().filter(Number.isFinite), ...shown];
         const low = Math.min(0, ...all);
         return [low < 0 ? 1.1 * low : 0, wide.fit(all.length ? Math.max(...all) : NaN)];
       },
@@ -100,6 +103,13 @@ export class Views {
     write(this.section('signals-words'), signalsWords(series, now, sensors));
     write(this.section('space-words'), spaceWords(series, now, this.space.camera.direction));
   }
+}
+
+/// All ranges and half of their extent on either side; for ever where they have no end.
+function widened(ranges) {
+  const [least, greatest] = [Math.min(...ranges.flat()), Math.max(...ranges.flat())];
+  const room = Number.isFinite(greatest - least) ? (greatest - least) / 2 : Infinity;
+  return [least - room, greatest + room];
 }
 
 /// A valid range in other units; a range that has no end there (null) goes on for ever.

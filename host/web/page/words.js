@@ -30,7 +30,7 @@ export function clock(t_s, decimals = 0) {
   const minutes = Math.floor(rounded / 60) % 60;
   const seconds = (rounded % 60).toFixed(decimals).padStart(decimals ? decimals + 3 : 2, '0');
   const text = hours ? `${hours}:${String(minutes).padStart(2, '0')}:${seconds}` : `${minutes}:${seconds}`;
-  return (t_s < 0 ? kMinus : '') + text;
+  return (t_s < 0 && rounded !== 0 ? kMinus : '') + text;
 }
 
 /// "1 sample", "12\u202f345 samples", "no samples".
@@ -39,6 +39,11 @@ export function count(number, one, many = `${one}s`) {
     return `no ${many}`;
   }
   return `${String(number).replace(/\B(?=(\d{3})+$)/g, '\u202f')} ${number === 1 ? one : many}`;
+}
+
+/// The program's plain text as it is printed: "9.81 +- 0.02 m/s2" with its signs and powers.
+export function typeset(text) {
+  return text.replaceAll('+-', '±').replace(/\^2|(?<=m\/s)2/g, '²').replace(/(?<![\w)])-(?=\d)/g, kMinus);
 }
 
 /// Writes `text` into `element` only where it changed, so that nothing is laid out anew for nothing.

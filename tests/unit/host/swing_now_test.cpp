@@ -11,7 +11,7 @@ namespace {
 
 using namespace penduline;
 
-constexpr double kLengthM = 0.5;
+constexpr Pendulum<double> kPendulum{.length_m = 0.5};
 constexpr double kPeriodS = 1.42;
 
 /// 60 s at 20 Hz of an ellipse of these half axes, turned by `orientation_rad`, with noise.
@@ -36,7 +36,7 @@ std::deque<LiveRow> swinging(double a_rad, double b_rad, double orientation_rad,
 }
 
 TEST_CASE("Period, amplitude and ellipse of a swing are found within a per cent", "[web]") {
-  const auto swing = swing_now(swinging(0.1, 0.03, 0.6), kLengthM);
+  const auto swing = swing_now(swinging(0.1, 0.03, 0.6), kPendulum);
   REQUIRE(swing);
   CHECK(swing->period_s == Approx(kPeriodS).epsilon(0.002));
   CHECK(swing->amplitude_rad == Approx(0.1).epsilon(0.01));
@@ -48,8 +48,8 @@ TEST_CASE("Period, amplitude and ellipse of a swing are found within a per cent"
 }
 
 TEST_CASE("A circle has a period, too, whichever way it goes", "[web]") {
-  CHECK(swing_now(swinging(0.1, 0.1, 0), kLengthM)->period_s == Approx(kPeriodS).epsilon(0.002));
-  CHECK(swing_now(swinging(0.1, -0.1, 0), kLengthM)->period_s == Approx(kPeriodS).epsilon(0.002));
+  CHECK(swing_now(swinging(0.1, 0.1, 0), kPendulum)->period_s == Approx(kPeriodS).epsilon(0.002));
+  CHECK(swing_now(swinging(0.1, -0.1, 0), kPendulum)->period_s == Approx(kPeriodS).epsilon(0.002));
 }
 
 TEST_CASE("A path's axis is counted from 0 to half a turn, about where the pendulum rests",
@@ -59,40 +59,52 @@ TEST_CASE("A path's axis is counted from 0 to half a turn, about where the pendu
   swing.semi_minor_rad = {.value = -0.02, .sigma = 0.008};
   swing.orientation_rad = {.value = -0.5};
   swing.centre = {.x_rad = 0.01, .y_rad = -0.02};
-  const PathEllipse path = path_of(swing, kLengthM);
+  const PathEllipse path = path_of(swing, kPendulum.length_m);
   CHECK(path.orientation_rad == Approx(std::numbers::pi - 0.5));
-  CHECK(path.b_m == Approx(kLengthM * std::sin(0.02)));
-  CHECK(path.x_m == Approx(kLengthM * std::sin(0.01)));
-  CHECK(path.y_m == Approx(-kLengthM * std::sin(0.02)));
+  CHECK(path.b_m == Approx(kPendulum.length_m * std::sin(0.02)));
+  CHECK(path.x_m == Approx(kPendulum.length_m * std::sin(0.01)));
+  CHECK(path.y_m == Approx(-kPendulum.length_m * std::sin(0.02)));
   CHECK(path.sense == 0);  // 2.5 sigmas
 }
 
 TEST_CASE("The other way round is the other sense", "[web]") {
-  CHECK(swing_now(swinging(0.1, -0.03, 0.6), kLengthM)->ellipse.sense == -1);
+  CHECK(swing_now(swinging(0.1, -0.03, 0.6), kPendulum)->ellipse.sense == -1);
 }
 
 TEST_CASE("A plane swing has no sense", "[web]") {
-  CHECK(swing_now(swinging(0.1, 0, 0.6), kLengthM)->ellipse.sense == 0);
+  CHECK(swing_now(swinging(0.1, 0, 0.6), kPendulum)->ellipse.sense == 0);
 }
 
 TEST_CASE("An orientation is the axis', from 0 to half a turn", "[web]") {
-  CHECK(swing_now(swinging(0.1, 0.03, -0.6), kLengthM)->ellipse.orientation_rad ==
+  CHECK(swing_now(swinging(0.1, 0.03, -0.6), kPendulum)->ellipse.orientation_rad ==
         Approx(std::numbers::pi - 0.6).margin(0.01));
 }
 
 TEST_CASE("At rest there is no swing, whatever the noise", "[web]") {
-  CHECK_FALSE(swing_now(swinging(0, 0, 0), kLengthM));
+  CHECK_FALSE(swing_now(swinging(0, 0, 0), kPendulum));
+}
+
+TEST_CASE("What is too fast for the pendulum is noise", "[web]") {
+  CHECK_FALSE(swing_now(swinging(0.1, 0.03, 0.6), Pendulum<double>{.length_m = 5}));
+}
+
+TEST_CASE("A swing that the angles' uncertainty hides is not told", "[web]") {
+  auto rows = swinging(0.01, 0.003, 0.6, 1e-5);
+  rows.back().sigma1_rad = rows.back().sigma2_rad = 0.003;
+  CHECK(swing_now(rows, kPendulum));
+  rows.back().sigma2_rad = 0.004;
+  CHECK_FALSE(swing_now(rows, kPendulum));
 }
 
 TEST_CASE("Too few rows, or none that can be trusted, are no swing", "[web]") {
-  CHECK_FALSE(swing_now({}, kLengthM));
+  CHECK_FALSE(swing_now({}, kPendulum));
   auto rows = swinging(0.1, 0.03, 0.6);
   for (LiveRow& row : rows) {
     row.flags = flag::kDisturbed;
   }
-  CHECK_FALSE(swing_now(rows, kLengthM));
+  CHECK_FALSE(swing_now(rows, kPendulum));
   rows.resize(10);
-  CHECK_FALSE(swing_now(rows, kLengthM));
+  CHECK_FALSE(swing_now(rows, kPendulum));
 }
 
 }  // namespace

@@ -58,8 +58,7 @@ TEST_CASE("No recording begins before there is a source", "[threads]") {
   RecordingSwitch recording(begin_in(folder));
   const auto started = recording.start();
   REQUIRE_FALSE(started);
-  CHECK(started.error().message ==
-        "There are no samples yet: a recording can begin once the board is there.");
+  CHECK(started.error().message == "There are no samples yet: the board is not there.");
   recording.join(header_of("pico", 20, 1));
   CHECK(recording.start());
 }
