@@ -13,6 +13,17 @@ std::string spaced(std::string_view options) {
   return options.empty() ? "" : fmt::format(" {}", options);
 }
 
+/// "still.csv", else "still-2.csv" and so on: what is there is never written over, so a command
+/// that reads it afterwards would read what is old.
+std::string free_name(const std::filesystem::path& folder, std::string_view stem) {
+  std::string name = fmt::format("{}.csv", stem);
+  std::error_code not_there;
+  for (int number = 2; std::filesystem::exists(folder / name, not_there); ++number) {
+    name = fmt::format("{}-{}.csv", stem, number);
+  }
+  return name;
+}
+
 }  // namespace
 
 std::string shell_word(std::string_view word) {
@@ -37,14 +48,16 @@ std::string TypedNames::run(std::string_view options) const {
 
 std::string TypedNames::again(std::string_view options) const {
   const std::string by_rig = rig.empty() ? "" : " --rig " + shell_word(rig);
-  return recorded ? fmt::format("{}, then 'penduline doctor file:still.csv{}'",
-                                run("--record still.csv -o /dev/null"), by_rig)
-                  : fmt::format("'penduline doctor {}{}{}'", shell_word(source), by_rig,
-                                spaced(options));
+  if (!recorded) {
+    return fmt::format("'penduline doctor {}{}{}'", shell_word(source), by_rig, spaced(options));
+  }
+  const std::string recording = free_name(folder, "still");
+  return fmt::format("{}, then 'penduline doctor file:{}{}'",
+                     run(fmt::format("--record {} -o /dev/null", recording)), recording, by_rig);
 }
 
 std::string TypedNames::calibrate(std::string_view method, std::string_view duration) const {
-  const std::string recording = fmt::format("{}.csv", method == "rest" ? "still" : method);
+  const std::string recording = free_name(folder, method == "rest" ? "still" : method);
   return fmt::format(
       "{} for {} (Ctrl-C ends it), then 'penduline calibrate {} {} --rig {} -o new.toml'",
       run(fmt::format("--record {} -o /dev/null", recording)), duration, method, recording,

@@ -2,6 +2,7 @@
 // Commands in advice, such that they can be typed as they stand.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,8 @@ struct TypedNames {
   std::string source = "auto";
   std::string rig{};      ///< "": not given; where a command needs one, it says rig.toml
   bool recorded = false;  ///< `source` is a recording, not a board
+  /// Where the user types: recordings in commands get names that no file has there.
+  std::filesystem::path folder = ".";
 
   /// A run of the board: "'penduline run auto --rig rig.toml --rate 10'".
   [[nodiscard]] std::string run(std::string_view options) const;

@@ -134,6 +134,14 @@ class DoctorTest(ProgramTest):
         self.assert_can_be_typed(found["sensor Sx gap"][2], 2)
         self.assert_can_be_typed(found["sensor Sx noise"][2], 2)
 
+    def test_a_recording_that_is_there_is_not_what_advice_calibrates_by(self):
+        recording, _ = self.simulate("--seconds", "10", "--held", "--theta-deg", "1", rig=RIG.name)
+        recording.rename(self.folder / "still.csv")
+        done = run("doctor", "file:still.csv", "--rig", RIG, cwd=self.folder)
+        record, calibrate = commands(verdicts(done)["sensor Sx gap"][2])
+        self.assertIn("--record still-2.csv", record)
+        self.assertIn("calibrate rest still-2.csv", calibrate)
+
     def examine(self, *simulation, rig=RIG, status=0):
         """A simulated recording looked over."""
         recording, _ = self.simulate("--seconds", "10", *simulation, rig=rig.name)

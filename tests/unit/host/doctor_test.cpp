@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include "host/doctor/signal_checks.hpp"
 #include "host/doctor/stream_checks.hpp"
 #include "host/doctor/typed_commands.hpp"
 #include "tests/unit/host/rig_text.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace penduline::test {
 namespace {
@@ -219,10 +221,11 @@ TEST_CASE("Advice names commands as they are typed, with the user's names", "[do
   CHECK(names.run("--rate 10") ==
         "'penduline run serial:/dev/ttyACM0 --rig \"my rig.toml\" --rate 10'");
   CHECK(TypedNames{}.again("--seconds 10") == "'penduline doctor auto --seconds 10'");
-  CHECK(TypedNames{.source = "file:rec.csv", .recorded = true}.again() ==
+  const TemporaryFolder folder;
+  CHECK(TypedNames{.source = "file:rec.csv", .recorded = true, .folder = folder.path()}.again() ==
         "'penduline run auto --rig rig.toml --record still.csv -o /dev/null', then 'penduline "
         "doctor file:still.csv'");
-  CHECK(TypedNames{.rig = "a.toml"}.calibrate("rest", "20 s") ==
+  CHECK(TypedNames{.rig = "a.toml", .folder = folder.path()}.calibrate("rest", "20 s") ==
         "'penduline run auto --rig a.toml --record still.csv -o /dev/null' for 20 s (Ctrl-C ends "
         "it), then 'penduline calibrate rest still.csv --rig a.toml -o new.toml'");
   Survey survey = good_survey();
@@ -231,6 +234,20 @@ TEST_CASE("Advice names commands as they are typed, with the user's names", "[do
   std::ranges::fill(survey.sensors[0].ambient_v, 0.0);
   CHECK_THAT(about(check_sensors(survey, std::nullopt, names), "sensor 1 ambient light").advice,
              Catch::EndsWith("toml\" --emitter switched'"));
+}
+
+TEST_CASE("A recording in advice has a name that no file has yet", "[doctor]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path("still.csv")) << "old";
+  const TypedNames names{.rig = "a.toml", .recorded = true, .folder = folder.path()};
+  CHECK(names.calibrate("rest", "20 s") ==
+        "'penduline run auto --rig a.toml --record still-2.csv -o /dev/null' for 20 s (Ctrl-C ends "
+        "it), then 'penduline calibrate rest still-2.csv --rig a.toml -o new.toml'");
+  std::ofstream(folder.path("still-2.csv")) << "old, too";
+  CHECK(names.again() ==
+        "'penduline run auto --rig a.toml --record still-3.csv -o /dev/null', then 'penduline "
+        "doctor file:still-3.csv --rig a.toml'");
+  CHECK_THAT(names.calibrate("swing", "60 s"), Catch::Contains("calibrate swing swing.csv"));
 }
 
 TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "[doctor]") {
