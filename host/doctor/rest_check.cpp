@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensor that moves most decides.
+// The sensor that moves most decides; where none moves, the one whose noise hides most.
 #include "host/doctor/rest_check.hpp"
 
 #include <fmt/format.h>
@@ -23,21 +23,37 @@ constexpr double kMostMotionShare = 0.005;
 /// Faster than pendulums swing whose rig is not known: 1 cm of length.
 constexpr double kFastestSwingHz = 5;
 
+/// Motion that samples hide, in standard errors of their mean: the drift that `motion_of` takes
+/// for noise, 3.3 of the difference of two thirds. Swings show sooner.
+constexpr double kHiddenErrors = 8;
+/// `motion_of` looks for swings in parts of this length.
+constexpr double kLongestSpanS = 60;
+
 /// One sensor's motion, in the unit that its bound has.
 struct SeenMotion {
   double swing = 0;
   double swing_hz = 0;
   double drift = 0;
+  double noise = 0;
+  double hidden = 0;  ///< motion that the noise may hide
   double most = 0;
   std::string_view unit;
 
   [[nodiscard]] double share_of_most() const { return std::max(swing, drift) / most; }
 };
 
-SeenMotion seen(const SignalMotion& motion, double unit_v, double most, std::string_view unit) {
+SeenMotion seen(const Survey& survey, std::size_t sensor, double fastest_hz, double unit_v,
+                double most, std::string_view unit) {
+  const std::vector<double>& volts = survey.sensors[sensor].signal_v;
+  const SignalMotion motion = motion_of(volts, survey.acquisition.rate_hz, fastest_hz);
+  const double noise = std::min(noise_of(volts), mean_signal(volts).scatter_v) / unit_v;
+  const double count =
+      std::min(static_cast<double>(volts.size()), kLongestSpanS * survey.acquisition.rate_hz);
   return {.swing = motion.swing_v / unit_v,
           .swing_hz = motion.swing_hz,
           .drift = std::abs(motion.drift_v) / unit_v,
+          .noise = noise,
+          .hidden = kHiddenErrors * noise / std::sqrt(count),
           .most = most,
           .unit = unit};
 }
@@ -46,16 +62,16 @@ SeenMotion motion_of_sensor(const Survey& survey, std::size_t sensor,
                             const std::optional<RigFile>& rig) {
   const std::vector<double>& volts = survey.sensors[sensor].signal_v;
   const double fastest_hz = rig ? 2 * small_swing_hz(rig->rig.pendulum) : kFastestSwingHz;
-  const SignalMotion motion = motion_of(volts, survey.acquisition.rate_hz, fastest_hz);
   const double mean_v = mean_signal(volts).volts;
   if (rig) {
     const double slope_m_per_v = std::abs(rig->rig.responses[sensor].slope_m_per_v(mean_v));
     const double v_per_deg = kDegree * tilt_arm_m(rig->rig.layout, sensor) / slope_m_per_v;
     if (std::isfinite(v_per_deg) && v_per_deg > 0) {
-      return seen(motion, v_per_deg, kMostMotionDeg, "deg");
+      return seen(survey, sensor, fastest_hz, v_per_deg, kMostMotionDeg, "deg");
     }
   }
-  return seen(motion, std::abs(mean_v) / 100, 100 * kMostMotionShare, "% of its signal");
+  return seen(survey, sensor, fastest_hz, std::abs(mean_v) / 100, 100 * kMostMotionShare,
+              "% of its signal");
 }
 
 std::string name_of(const std::optional<RigFile>& rig, std::size_t sensor) {
@@ -93,32 +109,67 @@ Finding moving(const SeenMotion& motion, const std::string& name, const TypedNam
               names.again())};
 }
 
+Finding hidden(const Survey& survey, const SeenMotion& motion, const std::string& name,
+               const TypedNames& names) {
+  const double enough = std::pow(kHiddenErrors * motion.noise / motion.most, 2);
+  const double seconds = std::ceil(1.2 * enough / survey.acquisition.rate_hz);
+  const std::string longer = seconds < kLongestSpanS && !names.recorded
+                                 ? fmt::format("; or look for longer: {}",
+                                               names.again(fmt::format("--seconds {}", seconds)))
+                                 : "";
+  return {.health = Health::kDoubtful,
+          .subject = "pendulum",
+          .found = fmt::format("whether it hangs still is hidden by noise: sensor {} has {:.2f} {} "
+                               "RMS from sample to sample, behind which it may move by {:.2f}; so "
+                               "its zero cannot be judged",
+                               name, motion.noise, motion.unit, motion.hidden),
+          .advice = fmt::format("{}{}", kQuietenAdvice, longer)};
+}
+
 }  // namespace
 
-std::optional<Finding> check_rest(const Survey& survey, const std::optional<RigFile>& rig,
-                                  const TypedNames& names) {
+std::optional<RestVerdict> check_rest(const Survey& survey, const std::optional<RigFile>& rig,
+                                      const TypedNames& names) {
   std::optional<SeenMotion> most;
+  std::optional<SeenMotion> noisiest;
   std::size_t moves_most = 0;
+  std::size_t hides_most = 0;
   for (std::size_t i = 0; i < survey.acquisition.sensor_count; ++i) {
-    const std::size_t count = survey.sensors[i].signal_v.size();
-    if (count > 0 && count < kFewestForMotion) {
-      return too_few(survey, name_of(rig, i), count, names);
+    const std::vector<double>& volts = survey.sensors[i].signal_v;
+    if (volts.empty() ||
+        mean_signal(volts).volts < kNoSignalShare * survey.acquisition.reference_v) {
+      continue;
+    }
+    if (volts.size() < kFewestForMotion) {
+      return RestVerdict{.rest = Rest::kUnknown,
+                         .finding = too_few(survey, name_of(rig, i), volts.size(), names)};
     }
     const SeenMotion motion = motion_of_sensor(survey, i, rig);
-    if (count > 0 && (!most || motion.share_of_most() > most->share_of_most())) {
+    if (!most || motion.share_of_most() > most->share_of_most()) {
       most = motion;
       moves_most = i;
+    }
+    if (!noisiest || motion.hidden / motion.most > noisiest->hidden / noisiest->most) {
+      noisiest = motion;
+      hides_most = i;
     }
   }
   if (!most) {
     return std::nullopt;
   }
   if (most->share_of_most() > 1) {
-    return moving(*most, name_of(rig, moves_most), names);
+    return RestVerdict{.rest = Rest::kMoving,
+                       .finding = moving(*most, name_of(rig, moves_most), names)};
   }
-  return Finding{.subject = "pendulum",
-                 .found = fmt::format("hangs still: no sensor sees it move by {:.1f} {}",
-                                      most->most, most->unit)};
+  if (noisiest->hidden > noisiest->most) {
+    return RestVerdict{.rest = Rest::kHidden,
+                       .finding = hidden(survey, *noisiest, name_of(rig, hides_most), names)};
+  }
+  return RestVerdict{
+      .rest = Rest::kStill,
+      .finding = {.subject = "pendulum",
+                  .found = fmt::format("hangs still: no sensor sees it move by {:.1f} {}",
+                                       most->most, most->unit)}};
 }
 
 }  // namespace penduline

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "host/doctor/finding.hpp"
 #include "host/doctor/survey.hpp"
@@ -11,11 +12,31 @@
 
 namespace penduline {
 
+/// A signal less than this share of the ADC's range is none.
+inline constexpr double kNoSignalShare = 0.003;
+
+/// What to do first about noise.
+inline constexpr std::string_view kQuietenAdvice =
+    "look for loose wires, a lamp that flickers and a noisy supply";
+
+/// What samples can tell of it.
+enum class Rest {
+  kUnknown,  ///< nothing: too few samples
+  kMoving,   ///< neither zero nor noise
+  kHidden,   ///< the noise, behind which it may move: no zero
+  kStill,    ///< zero and noise
+};
+
+struct RestVerdict {
+  Rest rest = Rest::kUnknown;
+  Finding finding;  ///< good where it hangs still
+};
+
 /// Of all sensors together. Motion counts from 0.1 deg on by a rig, which must have as many
-/// sensors, else from 0.5 % of a signal; and where it is certainly no noise. Good: it hangs still,
-/// and zero and noise can be judged. None where no sensor gives a signal.
-[[nodiscard]] std::optional<Finding> check_rest(const Survey& survey,
-                                                const std::optional<RigFile>& rig,
-                                                const TypedNames& names);
+/// sensors, else from 0.5 % of a signal; and where it is certainly no noise: noise that hides as
+/// much is a doubt. None where no sensor gives a signal.
+[[nodiscard]] std::optional<RestVerdict> check_rest(const Survey& survey,
+                                                    const std::optional<RigFile>& rig,
+                                                    const TypedNames& names);
 
 }  // namespace penduline

@@ -22,7 +22,6 @@ constexpr double kBrightAmbient = 0.2;  // leaves the signal less room than is g
 constexpr double kGlaringAmbient = 0.6;
 constexpr double kUnsteadyAmbient = 0.02;
 constexpr double kWeakSignal = 0.03;  // less than 100 mV of 3.3 V
-constexpr double kNoSignal = 0.003;
 /// A disc at rest that far from where the rig has it, seen as an angle.
 constexpr double kMostZeroDeg = 0.3;
 /// Noise beside what the rig says.
@@ -37,14 +36,13 @@ std::string percent(double share) {
 /// One sensor's light, in shares of the ADC's range and volts.
 class SensorChecks {
  public:
-  /// `still`: zero and noise can be judged.
   SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig,
-               const TypedNames& names, bool still)
+               const TypedNames& names, Rest rest)
       : reference_v_(survey.acquisition.reference_v),
         sensor_(sensor),
         rig_(rig),
         names_(names),
-        still_(still),
+        rest_(rest),
         name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
         signal_(mean_signal(survey.sensors[sensor].signal_v)),
         noise_v_(std::min(signal_.scatter_v, noise_of(survey.sensors[sensor].signal_v))),
@@ -53,7 +51,7 @@ class SensorChecks {
   Findings findings() {
     check_ambient();
     if (check_signal()) {
-      if (still_) {
+      if (rest_ == Rest::kStill || rest_ == Rest::kHidden) {
         check_noise();
       }
       if (rig_) {
@@ -107,7 +105,7 @@ class SensorChecks {
           "(docs/hardware.md)");
       return false;
     }
-    if (share < kNoSignal) {
+    if (share < kNoSignalShare) {
       add(Health::kBad, "signal", found + ": no light comes back",
           "look through a phone's camera whether the emitter glows; check its wire and polarity, "
           "and that the disc is in front of the sensor");
@@ -151,12 +149,17 @@ class SensorChecks {
     if (gap_m > kMostNoiseRatio * told_m) {
       add(Health::kDoubtful, "noise",
           fmt::format("{}, where the rig says {:.1f}", found, told_m / kMicrometre),
-          "look for loose wires and a noisy supply; if it stays, tell the rig its noise: let it "
-          "hang still, " +
-              names_.calibrate("rest", "20 s"));
+          std::string(kQuietenAdvice) + calibration_of_noise());
     } else {
       add(Health::kGood, "noise", std::move(found));
     }
+  }
+
+  /// Calibrating zeroes, too: only where the zero can be judged.
+  [[nodiscard]] std::string calibration_of_noise() const {
+    return rest_ == Rest::kStill ? "; if it stays, tell the rig its noise: let it hang still, " +
+                                       names_.calibrate("rest", "20 s")
+                                 : "";
   }
 
   void check_gap() {
@@ -189,7 +192,7 @@ class SensorChecks {
       return;
     }
     const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
-    if (!still_) {
+    if (rest_ != Rest::kStill) {
       add(Health::kGood, "gap", found);
     } else if (std::abs(zero_deg) > kMostZeroDeg) {
       add(Health::kDoubtful, "gap",
@@ -205,7 +208,7 @@ class SensorChecks {
   std::size_t sensor_;
   const std::optional<RigFile>& rig_;
   const TypedNames& names_;
-  bool still_;
+  Rest rest_;
   std::string name_;
   MeanSignal signal_;
   double noise_v_;
@@ -233,11 +236,11 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
   const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
   const auto rest = check_rest(survey, fitting, names);
   if (rest) {
-    findings.push_back(*rest);
+    findings.push_back(rest->finding);
   }
-  const bool still = rest && rest->health == Health::kGood;
   for (std::size_t i = 0; i < count; ++i) {
-    for (Finding& finding : SensorChecks(survey, i, fitting, names, still).findings()) {
+    for (Finding& finding :
+         SensorChecks(survey, i, fitting, names, rest ? rest->rest : Rest::kUnknown).findings()) {
       findings.push_back(std::move(finding));
     }
   }

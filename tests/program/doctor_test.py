@@ -130,7 +130,7 @@ class DoctorTest(ProgramTest):
         self.assert_can_be_typed(found["sensor 1 ambient light"][2], 1)
         few = self.write("few.csv", "".join(lines[:20]))
         self.assert_can_be_typed(verdicts(run("doctor", f"file:{few}"))["pendulum"][2], 2)
-        found = self.examine("--held", "--theta-deg", "1", "--gap-noise", "0.0005")
+        found = self.examine("--held", "--theta-deg", "1", "--gap-noise", "3e-5")
         self.assert_can_be_typed(found["sensor Sx gap"][2], 2)
         self.assert_can_be_typed(found["sensor Sx noise"][2], 2)
 
@@ -175,10 +175,20 @@ class DoctorTest(ProgramTest):
             self.assertNotIn("sensor Sx noise", found)
 
     def test_more_noise_than_the_rig_says(self):
-        health, text, advice = self.examine(*STILL, "--gap-noise", "0.0005")["sensor Sx noise"]
+        health, text, advice = self.examine(*STILL, "--gap-noise", "3e-5")["sensor Sx noise"]
         self.assertEqual(health, "doubtful")
         self.assertIn("where the rig says", text)
         self.assertIn("calibrate rest", advice)
+
+    def test_noise_that_hides_a_swing_is_to_be_seen_to_before_the_zero(self):
+        found = self.examine("--theta-deg", "0.5", "--noise", "0.3")
+        health, text, advice = found["pendulum"]
+        self.assertEqual(health, "doubtful")
+        self.assertIn("whether it hangs still is hidden by noise", text)
+        self.assertIn("look for loose wires", advice)
+        self.assertEqual(found["sensor Sx noise"][0], "doubtful")
+        self.assertNotIn("zero", found["sensor Sx gap"][1])
+        self.assertNotIn("calibrate", "".join(advice for _, _, advice in found.values()))
 
     def test_doubts_end_with_3_where_strict_asks(self):
         recording, _ = self.simulate("--seconds", "10", *STILL, "--ambient", "1.2")

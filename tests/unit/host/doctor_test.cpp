@@ -138,10 +138,10 @@ TEST_CASE("Noise is told in volts; where one sensor sees motion, of none", "[doc
   CHECK_FALSE(has(moving, "sensor 2 noise"));
 }
 
-TEST_CASE("Whether it hangs still is one verdict, and does not depend on the noise", "[doctor]") {
+TEST_CASE("Whether it hangs still is one verdict, with little noise and with some", "[doctor]") {
   const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
   const double rms_deg = GENERATE(0.05, 0.2);
-  const double noise_deg = GENERATE(0.001, 0.3);
+  const double noise_deg = GENERATE(0.001, 0.1);
   const double v_per_deg = 0.02 * 0.01745329 / 0.006;
   Survey survey = good_survey();
   survey.sensors[0] = steady(1.8333, 0.1, noise_deg * v_per_deg);
@@ -153,6 +153,36 @@ TEST_CASE("Whether it hangs still is one verdict, and does not depend on the noi
   CHECK(has(findings, "sensor Sx noise") == still);
   CHECK((about(findings, "sensor Sx gap").found.find("zero") != std::string::npos) == still);
   CHECK((about(findings, "sensor Sy gap").found.find("zero") != std::string::npos) == still);
+}
+
+TEST_CASE("Where noise may hide motion, the noise is doubtful and the zero not judged",
+          "[doctor]") {
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  const double v_per_deg = 0.02 * 0.01745329 / 0.006;
+  Survey survey = good_survey();
+  // Of 100 samples, noise of 0.2 deg hides 0.16 deg; sensor Sx is off by 1 deg.
+  survey.sensors[0] = steady(1.8333 + v_per_deg, 0.1, 0.05 * v_per_deg);
+  survey.sensors[1] = steady(1.8333, 0.1, 0.2 * v_per_deg);
+  const Findings findings = check_sensors(survey, rig, {.rig = "my.toml"});
+  const Finding pendulum = about(findings, "pendulum");
+  CHECK(pendulum.health == Health::kDoubtful);
+  CHECK_THAT(pendulum.found,
+             Catch::StartsWith("whether it hangs still is hidden by noise: sensor Sy has 0.20 deg "
+                               "RMS from sample to sample, behind which it may move by 0.16; "));
+  CHECK(pendulum.advice ==
+        "look for loose wires, a lamp that flickers and a noisy supply; or look for longer: "
+        "'penduline doctor auto --rig my.toml --seconds 16'");
+  CHECK(about(findings, "sensor Sx gap").health == Health::kGood);
+  CHECK_THAT(about(findings, "sensor Sx gap").found, !Catch::Contains("zero"));
+  CHECK(about(findings, "sensor Sy noise").health == Health::kDoubtful);
+  CHECK(about(findings, "sensor Sy noise").advice ==
+        "look for loose wires, a lamp that flickers and a noisy supply");
+}
+
+TEST_CASE("A sensor without signal does not hide whether the others hang still", "[doctor]") {
+  Survey survey = good_survey();
+  survey.sensors[0] = steady(0.005, 0.1);
+  CHECK(about(check_sensors(survey, std::nullopt, {}), "pendulum").health == Health::kGood);
 }
 
 TEST_CASE("A pendulum that turns slowly is not at rest", "[doctor]") {
