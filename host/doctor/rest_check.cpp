@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/disc_plane.hpp"
 #include "common/dynamics.hpp"
 #include "host/calibration/signal_log.hpp"
 #include "host/calibration/signal_motion.hpp"
@@ -127,6 +128,26 @@ Finding hidden(const Survey& survey, const SeenMotion& motion, const std::string
 }
 
 }  // namespace
+
+std::optional<double> zero_deg(const Survey& survey, std::size_t sensor, const RigFile& rig) {
+  const GapReading<double> reading =
+      rig.rig.responses[sensor].read(mean_signal(survey.sensors[sensor].signal_v).volts);
+  const double arm_m = rig.rig.layout.position_m[sensor].head<2>().norm();
+  if (!reading.gap_m || reading.flags != 0 || arm_m < kOnAxisM) {
+    return std::nullopt;
+  }
+  const double rest_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, sensor);
+  return (*reading.gap_m - rest_m) / arm_m / kDegree;
+}
+
+bool is_near_zero(const Survey& survey, const RigFile& rig) {
+  for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
+    if (std::abs(zero_deg(survey, i, rig).value_or(0)) > kGrossZeroDeg) {
+      return false;
+    }
+  }
+  return true;
+}
 
 std::optional<RestVerdict> check_rest(const Survey& survey, const std::optional<RigFile>& rig,
                                       const TypedNames& names) {

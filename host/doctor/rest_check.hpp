@@ -2,6 +2,7 @@
 // Whether the pendulum hangs still: one verdict, on which those about zero and noise rest.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -31,6 +32,18 @@ struct RestVerdict {
   Rest rest = Rest::kUnknown;
   Finding finding;  ///< good where it hangs still
 };
+
+/// A zero farther off is none that drifted: it is another pendulum's rig, or something holds it.
+inline constexpr double kGrossZeroDeg = 5;
+
+/// How far a still disc is from where the rig has it, as a sensor sees it, in degrees of a small
+/// tilt; none where its mean signal means no gap, or it is on the axis.
+[[nodiscard]] std::optional<double> zero_deg(const Survey& survey, std::size_t sensor,
+                                             const RigFile& rig);
+
+/// Whether no sensor's zero is grossly off, so that zeroing makes sense. The rig must have as many
+/// sensors.
+[[nodiscard]] bool is_near_zero(const Survey& survey, const RigFile& rig);
 
 /// Of all sensors together. Motion counts from 0.1 deg on by a rig, which must have as many
 /// sensors, else from 0.5 % of a signal; and where it is certainly no noise: noise that hides as

@@ -37,12 +37,14 @@ std::string percent(double share) {
 class SensorChecks {
  public:
   SensorChecks(const Survey& survey, std::size_t sensor, const std::optional<RigFile>& rig,
-               const TypedNames& names, Rest rest)
-      : reference_v_(survey.acquisition.reference_v),
+               const TypedNames& names, Rest rest, bool may_zero)
+      : survey_(survey),
+        reference_v_(survey.acquisition.reference_v),
         sensor_(sensor),
         rig_(rig),
         names_(names),
         rest_(rest),
+        may_zero_(may_zero),
         name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
         signal_(mean_signal(survey.sensors[sensor].signal_v)),
         noise_v_(std::min(signal_.scatter_v, noise_of(survey.sensors[sensor].signal_v))),
@@ -155,11 +157,11 @@ class SensorChecks {
     }
   }
 
-  /// Calibrating zeroes, too: only where the zero can be judged.
+  /// Calibrating zeroes, too.
   [[nodiscard]] std::string calibration_of_noise() const {
-    return rest_ == Rest::kStill ? "; if it stays, tell the rig its noise: let it hang still, " +
-                                       names_.calibrate("rest", "20 s")
-                                 : "";
+    return may_zero_ ? "; if it stays, tell the rig its noise: let it hang still, " +
+                           names_.calibrate("rest", "20 s")
+                     : "";
   }
 
   void check_gap() {
@@ -191,24 +193,35 @@ class SensorChecks {
                       names_.needed_rig()));
       return;
     }
-    const double zero_deg = (*reading.gap_m - rest_m) / arm_m / kDegree;
+    const double off_deg = zero_deg(survey_, sensor_, *rig_).value_or(0);
     if (rest_ != Rest::kStill) {
       add(Health::kGood, "gap", found);
-    } else if (std::abs(zero_deg) > kMostZeroDeg) {
+    } else if (std::abs(off_deg) > kMostZeroDeg) {
       add(Health::kDoubtful, "gap",
-          fmt::format("{}: its zero is off by {:.2f} deg", found, zero_deg),
-          "if nothing touches the pendulum, zero it: " + names_.calibrate("rest", "20 s"));
+          fmt::format("{}: its zero is off by {:.2f} deg", found, off_deg), zero_advice(off_deg));
     } else {
       add(Health::kGood, "gap",
-          fmt::format("{}: zero within {:.2f} deg", found, std::abs(zero_deg)));
+          fmt::format("{}: zero within {:.2f} deg", found, std::abs(off_deg)));
     }
   }
 
+  [[nodiscard]] std::string zero_advice(double off_deg) const {
+    if (std::abs(off_deg) > kGrossZeroDeg) {
+      return "that is more than a zero drifts: is this the rig file of this pendulum? If so, see "
+             "whether something holds the pendulum, or a sensor has moved";
+    }
+    return may_zero_
+               ? "if nothing touches the pendulum, zero it: " + names_.calibrate("rest", "20 s")
+               : "see first to the sensor whose zero is off by much more";
+  }
+
+  const Survey& survey_;
   double reference_v_;
   std::size_t sensor_;
   const std::optional<RigFile>& rig_;
   const TypedNames& names_;
   Rest rest_;
+  bool may_zero_;
   std::string name_;
   MeanSignal signal_;
   double noise_v_;
@@ -234,13 +247,14 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
                         .advice = "give the rig file of this pendulum"});
   }
   const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
-  const auto rest = check_rest(survey, fitting, names);
-  if (rest) {
-    findings.push_back(rest->finding);
+  const auto verdict = check_rest(survey, fitting, names);
+  if (verdict) {
+    findings.push_back(verdict->finding);
   }
+  const Rest rest = verdict ? verdict->rest : Rest::kUnknown;
+  const bool zeroing = fitting && rest == Rest::kStill && is_near_zero(survey, *fitting);
   for (std::size_t i = 0; i < count; ++i) {
-    for (Finding& finding :
-         SensorChecks(survey, i, fitting, names, rest ? rest->rest : Rest::kUnknown).findings()) {
+    for (Finding& finding : SensorChecks(survey, i, fitting, names, rest, zeroing).findings()) {
       findings.push_back(std::move(finding));
     }
   }

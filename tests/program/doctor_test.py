@@ -163,6 +163,15 @@ class DoctorTest(ProgramTest):
         self.assertRegex(text, r"its zero is off by -?0\.\d\d deg")
         self.assertIn("penduline calibrate rest", advice)
 
+    def test_a_pendulum_that_something_holds_is_not_to_be_zeroed(self):
+        for degrees in (15, 40):
+            found = self.examine("--held", "--theta-deg", degrees, rig=RIGS / "paper.toml")
+            health, text, advice = found["sensor Sx gap"]
+            self.assertEqual(health, "doubtful")
+            self.assertRegex(text, r"its zero is off by -\d+\.\d\d deg")
+            self.assertIn("whether something holds the pendulum", advice)
+            self.assertNotIn("calibrate", "".join(advice for _, _, advice in found.values()))
+
     def test_a_pendulum_that_swings_is_held_against_neither_zero_nor_noise(self):
         for degrees in (0.3, 10):
             found = self.examine("--theta-deg", degrees)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `penduline doctor` makes of samples.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -302,6 +304,30 @@ TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "
   CHECK(about(of_first(rest_v, told_v), noise).health == Health::kGood);
   CHECK(about(of_first(rest_v + 0.5 * v_per_deg, told_v), gap).health == Health::kDoubtful);
   CHECK(about(of_first(rest_v, 3 * told_v), noise).health == Health::kDoubtful);
+}
+
+TEST_CASE("A zero that is off by more than 5 deg is not to be zeroed", "[doctor]") {
+  const RigFile rig = parse_rig(std::string(kRigText), "rig.toml").value();
+  const double v_per_deg = 0.02 * 0.01745329 / 0.006;
+  const auto [off_deg, gross] = GENERATE(std::pair{4.9, false}, std::pair{5.1, true},
+                                         std::pair{-4.9, false}, std::pair{-15.0, true});
+  Survey survey = good_survey();
+  // The linear response falls: more signal, less gap. Sensor Sy is off by 1 deg and noisy.
+  survey.sensors[0] = steady(11.0 / 6 - off_deg * v_per_deg, 0.1);
+  survey.sensors[1] = steady(11.0 / 6 - 1 * v_per_deg, 0.1, 0.1 * v_per_deg);
+  const Findings findings = check_sensors(survey, rig, {.rig = "my.toml"});
+  const Finding gap = about(findings, "sensor Sx gap");
+  CHECK(gap.health == Health::kDoubtful);
+  CHECK_THAT(gap.found, Catch::EndsWith(fmt::format("off by {:.2f} deg", off_deg)));
+  CHECK(gap.advice.starts_with("that is more than a zero drifts: is this the rig file of this") ==
+        gross);
+  const std::string calibrate = "penduline calibrate rest";
+  CHECK((gap.advice.find(calibrate) == std::string::npos) == gross);
+  const Finding other = about(findings, "sensor Sy gap");
+  CHECK((other.advice == "see first to the sensor whose zero is off by much more") == gross);
+  const Finding noise = about(findings, "sensor Sy noise");
+  CHECK(noise.health == Health::kDoubtful);
+  CHECK((noise.advice.find(calibrate) == std::string::npos) == gross);
 }
 
 TEST_CASE("A signal that the rig's response does not have is bad", "[doctor]") {
