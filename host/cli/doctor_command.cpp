@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/estimation_options.hpp"
@@ -108,6 +110,22 @@ tl::expected<void, Error> listen(const DoctorOptions& options, const SourceUri& 
   return {};
 }
 
+/// Why a word is no source, without the simulation, which is no set-up; a file's name alone is
+/// most likely meant as one.
+std::string no_source(const std::string& word, std::string reason) {
+  constexpr std::string_view kForms = "auto, serial:PATH, usb:VID:PID or file:PATH";
+  std::error_code not_there;
+  const std::filesystem::file_status file = std::filesystem::status(word, not_there);
+  if (std::filesystem::is_regular_file(file)) {
+    return fmt::format("found '{}', expected {}; for that recording: {}", word, kForms,
+                       shell_word("file:" + word));
+  }
+  if (const std::size_t all = reason.find(kSourceForms); all != std::string::npos) {
+    reason.replace(all, kSourceForms.size(), kForms);
+  }
+  return reason;
+}
+
 ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
   std::optional<RigFile> rig;
   if (!options.rig_path.empty()) {
@@ -164,7 +182,7 @@ void add_doctor_command(CLI::App& program, ExitStatus& status) {
   command->final_callback([options, &status] {
     const auto uri = parse_uri(options->uri);
     if (!uri) {
-      throw CLI::ValidationError("SOURCE", uri.error().message);
+      throw CLI::ValidationError("SOURCE", no_source(options->uri, uri.error().message));
     }
     if (uri->kind == SourceUri::Kind::kSimulation) {
       throw CLI::ValidationError("SOURCE", "found sim:, expected a board or a recording");

@@ -207,6 +207,14 @@ class DoctorTest(ProgramTest):
     def test_a_simulation_is_no_set_up(self):
         self.assertIn("found sim:, expected a board or a recording", run("doctor", "sim:", status=2).stderr)
 
+    def test_a_word_that_is_no_source_is_told_the_right_ones(self):
+        self.write("my still.csv", "")
+        forms = "expected auto, serial:PATH, usb:VID:PID or file:PATH"
+        there = run("doctor", "my still.csv", status=2, cwd=self.folder).stderr
+        self.assertIn(f"found 'my still.csv', {forms}; for that recording: \"file:my still.csv\"\n", there)
+        nowhere = run("doctor", "nowhere.csv", status=2, cwd=self.folder).stderr
+        self.assertIn(f"found 'nowhere.csv', {forms}\n", nowhere)
+
 
 if __name__ == "__main__":
     unittest.main()
