@@ -24,6 +24,11 @@ namespace {
 /// Where a Pico shows up that waits for firmware.
 constexpr const char* kPicoDisk = "/dev/disk/by-label/RPI-RP2";
 
+/// What penduline-sim-board and its like call themselves.
+constexpr std::string_view kSimulatedBoard = "sim";
+/// Of the main loop's time.
+constexpr unsigned kMostLoadPermille = 900;
+
 Finding bad(std::string subject, std::string found, std::string advice) {
   return {.health = Health::kBad,
           .subject = std::move(subject),
@@ -127,7 +132,29 @@ std::optional<wire::Status> ask_status(BoardConnection& connection, const StopSi
   return std::nullopt;
 }
 
-Finding health_of(const std::optional<wire::Status>& status, const TypedNames& names) {
+double slower_hz(const wire::Status& status) {
+  return std::max(status.rate_millihz / 2, wire::kLeastRateMillihz) / 1000.0;
+}
+
+/// Its load and temperature, as far as it has them.
+std::string condition_of(const wire::Status& status, bool simulated) {
+  constexpr double kCentidegrees = 100;
+  std::string condition = "it has not failed since it was plugged in";
+  if (!simulated) {
+    condition +=
+        fmt::format("; its processor is busy {} % of the time", status.load_permille / 10.0);
+  }
+  if (status.temperature_cdeg != wire::kUnknownTemperature) {
+    condition += fmt::format("{} {:.0f} degrees Celsius", simulated ? "; it has" : " and has",
+                             status.temperature_cdeg / kCentidegrees);
+  }
+  return condition;
+}
+
+}  // namespace
+
+Finding check_health(const wire::Hello& hello, const std::optional<wire::Status>& status,
+                     const TypedNames& names) {
   if (!status) {
     return {.health = Health::kDoubtful,
             .subject = "health",
@@ -135,13 +162,6 @@ Finding health_of(const std::optional<wire::Status>& status, const TypedNames& n
             .advice =
                 "where it cannot be written to, as through a serial line's receiver alone, "
                 "it takes no commands either"};
-  }
-  constexpr double kCentidegrees = 100;
-  std::string found =
-      fmt::format("its processor is busy {} % of the time", status->load_permille / 10.0);
-  if (status->temperature_cdeg != wire::kUnknownTemperature) {
-    found +=
-        fmt::format(" and has {:.0f} degrees Celsius", status->temperature_cdeg / kCentidegrees);
   }
   if (status->fault_pc != 0 || status->fault_line != 0) {
     return {.health = Health::kDoubtful,
@@ -157,10 +177,16 @@ Finding health_of(const std::optional<wire::Status>& status, const TypedNames& n
             .found = "the rig that it keeps is damaged, and ignored",
             .advice = "store it again: " + names.run("--upload-rig gn")};
   }
-  return {.subject = "health", .found = found};
+  const bool simulated = wire::characters_of(hello.board) == kSimulatedBoard;
+  if (!simulated && status->load_permille > kMostLoadPermille) {
+    return {.health = Health::kDoubtful,
+            .subject = "health",
+            .found = condition_of(*status, simulated),
+            .advice = "samples may come late: sample more slowly: " +
+                      names.run(fmt::format("--rate {:g}", slower_hz(*status)))};
+  }
+  return {.subject = "health", .found = condition_of(*status, simulated)};
 }
-
-}  // namespace
 
 Findings check_board(const SourceUri& uri, const TypedNames& names, const StopSignal& stop) {
   const auto path = port_path(uri);
@@ -190,7 +216,7 @@ Findings check_board(const SourceUri& uri, const TypedNames& names, const StopSi
   findings.push_back(firmware_of(connection->hello()));
   const auto status = ask_status(*connection, stop);
   if (status || !stop.requested()) {
-    findings.push_back(health_of(status, names));
+    findings.push_back(check_health(connection->hello(), status, names));
   }
   return findings;
 }

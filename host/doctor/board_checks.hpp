@@ -2,6 +2,9 @@
 // Whether a board is there, may be talked to, and what it says of itself.
 #pragma once
 
+#include <optional>
+
+#include "common/wire/device_messages.hpp"
 #include "host/doctor/finding.hpp"
 #include "host/doctor/typed_commands.hpp"
 #include "host/session/stop_signal.hpp"
@@ -13,5 +16,11 @@ namespace penduline {
 /// it fares. Ends with the first finding that is bad, or where a stop is requested.
 [[nodiscard]] Findings check_board(const SourceUri& uri, const TypedNames& names,
                                    const StopSignal& stop);
+
+/// What a board says of how it fares; none: it did not answer. A simulated board's load says
+/// nothing.
+[[nodiscard]] Finding check_health(const wire::Hello& hello,
+                                   const std::optional<wire::Status>& status,
+                                   const TypedNames& names);
 
 }  // namespace penduline

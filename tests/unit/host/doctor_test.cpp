@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "common/wire/text.hpp"
+#include "host/doctor/board_checks.hpp"
 #include "host/doctor/signal_checks.hpp"
 #include "host/doctor/stream_checks.hpp"
 #include "host/doctor/typed_commands.hpp"
@@ -40,6 +42,30 @@ Finding about(const Findings& findings, const std::string& subject) {
   const auto found = std::ranges::find(findings, subject, &Finding::subject);
   REQUIRE(found != findings.end());
   return *found;
+}
+
+TEST_CASE("A board whose processor is busy for more than 90 % of the time is doubtful",
+          "[doctor]") {
+  const wire::Hello hello{.board = wire::text_of("pico")};
+  const auto at = [&](std::uint16_t load_permille) {
+    return check_health(hello, wire::Status{.load_permille = load_permille, .rate_millihz = 50000},
+                        {.rig = "my.toml"});
+  };
+  CHECK(at(900).health == Health::kGood);
+  CHECK(at(900).found ==
+        "it has not failed since it was plugged in; its processor is busy 90 % of the time");
+  CHECK(at(901).health == Health::kDoubtful);
+  CHECK_THAT(at(901).found, Catch::EndsWith("its processor is busy 90.1 % of the time"));
+  CHECK(at(901).advice ==
+        "samples may come late: sample more slowly: 'penduline run auto --rig my.toml --rate 25'");
+}
+
+TEST_CASE("Nothing is said of a simulated board's load", "[doctor]") {
+  const wire::Hello hello{.board = wire::text_of("sim")};
+  const Finding health =
+      check_health(hello, wire::Status{.load_permille = 1000, .temperature_cdeg = 2500}, {});
+  CHECK(health.health == Health::kGood);
+  CHECK(health.found == "it has not failed since it was plugged in; it has 25 degrees Celsius");
 }
 
 TEST_CASE("A good stream is good, in numbers", "[doctor]") {
