@@ -15,8 +15,6 @@ namespace {
 constexpr double kChance = 1e-3;
 /// Standard deviations that a normal number exceeds with that chance.
 constexpr double kCertainSigmas = 3.29;
-/// A span longer than this is looked at in parts, of which the one that moves most counts.
-constexpr double kLongestSpanS = 60;
 
 double mean_of(const double* begin, const double* end) {
   return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
@@ -126,7 +124,7 @@ SignalMotion motion_of(const std::vector<double>& volts, double rate_hz, double 
   const std::vector<double> means = means_of(volts, width);
   const double mean_rate_hz = rate_hz / static_cast<double>(width);
   const auto parts = static_cast<std::size_t>(
-      std::ceil(static_cast<double>(means.size()) / (kLongestSpanS * mean_rate_hz)));
+      std::ceil(static_cast<double>(means.size()) / (kLongestMotionSpanS * mean_rate_hz)));
   for (std::size_t i = 0; i < parts; ++i) {
     const auto at = [&](std::size_t part) {
       return means.begin() + static_cast<std::ptrdiff_t>(means.size() * part / parts);

@@ -20,6 +20,8 @@ struct SignalMotion {
 
 /// Fewest samples of which motion can be told.
 inline constexpr std::size_t kFewestForMotion = 20;
+/// What is longer is looked at in parts, of which the one that moves most counts.
+inline constexpr double kLongestMotionSpanS = 60;
 
 /// RMS of what is new in each sample (von Neumann); 0 where there are less than two.
 [[nodiscard]] double noise_of(const std::vector<double>& volts);

@@ -27,8 +27,6 @@ constexpr double kFastestSwingHz = 5;
 /// Motion that samples hide, in standard errors of their mean: the drift that `motion_of` takes
 /// for noise, 3.3 of the difference of two thirds. Swings show sooner.
 constexpr double kHiddenErrors = 8;
-/// `motion_of` looks for swings in parts of this length.
-constexpr double kLongestSpanS = 60;
 
 /// One sensor's motion, in the unit that its bound has.
 struct SeenMotion {
@@ -49,7 +47,7 @@ SeenMotion seen(const Survey& survey, std::size_t sensor, double fastest_hz, dou
   const SignalMotion motion = motion_of(volts, survey.acquisition.rate_hz, fastest_hz);
   const double noise = std::min(noise_of(volts), mean_signal(volts).scatter_v) / unit_v;
   const double count =
-      std::min(static_cast<double>(volts.size()), kLongestSpanS * survey.acquisition.rate_hz);
+      std::min(static_cast<double>(volts.size()), kLongestMotionSpanS * survey.acquisition.rate_hz);
   return {.swing = motion.swing_v / unit_v,
           .swing_hz = motion.swing_hz,
           .drift = std::abs(motion.drift_v) / unit_v,
@@ -114,7 +112,7 @@ Finding hidden(const Survey& survey, const SeenMotion& motion, const std::string
                const TypedNames& names) {
   const double enough = std::pow(kHiddenErrors * motion.noise / motion.most, 2);
   const double seconds = std::ceil(1.2 * enough / survey.acquisition.rate_hz);
-  const std::string longer = seconds < kLongestSpanS && !names.recorded
+  const std::string longer = seconds < kLongestMotionSpanS && !names.recorded
                                  ? fmt::format("; or look for longer: {}",
                                                names.again(fmt::format("--seconds {}", seconds)))
                                  : "";

@@ -71,7 +71,7 @@ TEST_CASE("Dry friction alone is found alone") {
   CHECK_FALSE(choice.candidates[1].supported);
 }
 
-TEST_CASE("Dry friction beside linear friction is found, and both come back") {
+TEST_CASE("Dry friction beside linear friction is found, and both come back", "[long]") {
   const FrictionChoice choice = choice_for({.linear_per_s = 0.05, .dry_rad_s2 = 0.04});
   CHECK(name_of(choice.chosen.terms) == "linear + dry");
   check_figure(choice.chosen, &Friction::linear_per_s, 0.05);

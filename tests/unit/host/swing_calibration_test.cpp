@@ -57,7 +57,8 @@ TEST_CASE("Frictions are 0 or more; one at 0 is held there, and that is said", "
   CHECK(result->record.covariance(0, 0) > 0);
 }
 
-TEST_CASE("A swing in a plane across both sensors does not tell its angles", "[calibration]") {
+TEST_CASE("A swing in a plane across both sensors does not tell its angles",
+          "[calibration][long]") {
   CHECK(error_of(planar(12, 45, 20)).find("leaves its amplitude uncertain by ") !=
         std::string::npos);
 }
@@ -83,7 +84,7 @@ TEST_CASE("A pendulum that hangs still, or for moments only, is no swing", "[cal
         "rec.csv: found 3.6 periods of the swing, expected 5 or more");
 }
 
-TEST_CASE("A hand that stops the pendulum is no free swing", "[calibration]") {
+TEST_CASE("A hand that stops the pendulum is no free swing", "[calibration][long]") {
   SignalLog log = recorded(real_rig(3), ellipse(20, 1));
   for (std::size_t i = log.t_s.size() / 2; i < log.t_s.size(); ++i) {
     log.volts[i] = log.volts[log.t_s.size() / 2];
