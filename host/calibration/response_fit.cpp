@@ -10,35 +10,15 @@
 #include <numeric>
 
 #include "host/calibration/calibration.hpp"
+#include "host/calibration/response_candidates.hpp"
 #include "host/units.hpp"
 
 namespace penduline {
 namespace {
 
-/// How well a jig's gap is known, and the noise that no mean takes away.
-constexpr double kJigSigmaM = 20e-6;
 constexpr double kNarrowestPointsM = 2e-3;
 /// Beyond this a curve is not determined.
 constexpr double kWorstCurveSigmaM = 0.1e-3;
-
-struct Weighed {
-  std::vector<SensorPoint> points;  ///< from near to far
-  std::vector<double> steepness_v_per_m;
-  GapRange range;
-};
-
-std::size_t distinct_gaps(const std::vector<SensorPoint>& points) {
-  constexpr double kSameM = 50e-6;
-  std::size_t count = 0;
-  double last_m = -1;
-  for (const SensorPoint& point : points) {
-    if (count == 0 || point.gap_m - last_m > kSameM) {
-      ++count;
-      last_m = point.gap_m;
-    }
-  }
-  return count;
-}
 
 /// The gap of the peak: where points nearer than the strongest are clearly weaker, between that one
 /// and the next, as near to what the rig knows as can be; else what the rig knows.
@@ -71,13 +51,13 @@ double leave_out_fold(std::vector<SensorPoint>& points, double known_peak_m, Res
   return peak_m;
 }
 
-tl::expected<Weighed, Error> weigh(std::vector<SensorPoint> points, std::size_t fewest) {
+tl::expected<WeighedPoints, Error> weigh(std::vector<SensorPoint> points, std::size_t fewest) {
   const std::size_t distinct = distinct_gaps(points);
   if (distinct < fewest) {
     return failure(fmt::format("found {} different gaps, expected {} or more for this model",
                                distinct, fewest));
   }
-  Weighed weighed{.points = std::move(points), .steepness_v_per_m = {}, .range = {}};
+  WeighedPoints weighed{.points = std::move(points), .steepness_v_per_m = {}, .range = {}};
   weighed.range = {weighed.points.front().gap_m, weighed.points.back().gap_m};
   if (weighed.range.farthest_m - weighed.range.nearest_m < kNarrowestPointsM) {
     return failure(fmt::format("found gaps from {:.2f} to {:.2f} mm, expected {:.0f} mm or more",
@@ -108,125 +88,6 @@ double akaike(double squares, std::size_t points, std::size_t numbers) {
                        : std::numeric_limits<double>::infinity();
 }
 
-/// One way to fit: parameters, residuals in standard deviations, and the response that comes of it.
-struct Candidate {
-  std::vector<FitParameter> parameters;
-  FitResiduals residuals;
-  std::function<std::optional<Response<double>>(const Eigen::VectorXd&)> response;
-  /// The gap that the numbers give a point; its derivative by them is the curve's uncertainty.
-  std::function<double(const Eigen::VectorXd&, std::size_t)> gap_misfit_m;
-};
-
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
-Candidate finished(Candidate candidate, const Weighed& data) {
-  candidate.residuals = [&data, misfit = candidate.gap_misfit_m](const Eigen::VectorXd& values,
-                                                                 Eigen::VectorXd& residuals) {
-    for (std::size_t i = 0; i < data.points.size(); ++i) {
-      const double noise_m = data.points[i].standard_error_v / data.steepness_v_per_m[i];
-      residuals[static_cast<Eigen::Index>(i)] = misfit(values, i) / std::hypot(noise_m, kJigSigmaM);
-    }
-  };
-  return candidate;
-}
-
-Candidate curve_candidate(CurveKind kind, std::size_t degree, const Weighed& data, double peak_m) {
-  const ResponseCurve curve(kind, data.range, degree);
-  std::vector<double> gaps;
-  std::vector<double> signals;
-  for (const SensorPoint& point : data.points) {
-    gaps.push_back(point.gap_m);
-    signals.push_back(point.volts);
-  }
-  Candidate candidate;
-  const std::vector<double> start = curve.nearest_to(gaps, signals);
-  const std::vector<std::string> names = curve.names();
-  const std::vector<double> spreads = curve.spreads();
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    candidate.parameters.push_back({.name = names[i], .start = start[i], .scale = spreads[i] / 10});
-  }
-  candidate.gap_misfit_m = [&data, curve](const Eigen::VectorXd& values, std::size_t i) {
-    return (curve.volts(span_of(values), data.points[i].gap_m) - data.points[i].volts) /
-           data.steepness_v_per_m[i];
-  };
-  candidate.response = [&data, curve, kind,
-                        peak_m](const Eigen::VectorXd& values) -> std::optional<Response<double>> {
-    const bool beyond_pole = kind == CurveKind::kInverseSquare && values[1] < 0;
-    if (beyond_pole || !keeps_falling(curve, span_of(values), data.range)) {
-      return std::nullopt;
-    }
-    return curve.response(span_of(values), data.range, peak_m);
-  };
-  return finished(std::move(candidate), data);
-}
-
-/// The gap as a polynomial of the signal.
-Candidate polynomial_candidate(ResponseModel model, std::size_t degree, const Weighed& data,
-                               double peak_m) {
-  Candidate candidate;
-  for (std::size_t i = 0; i <= degree; ++i) {
-    candidate.parameters.push_back({.name = fmt::format("c{}_m_per_v{}", i, i),
-                                    .start = i == 0 ? data.range.farthest_m : 0,
-                                    .scale = kMillimetre});
-  }
-  const auto value = [](const Eigen::VectorXd& numbers, double volts) {
-    double sum = 0;
-    for (Eigen::Index i = numbers.size(); i-- > 0;) {
-      sum = sum * volts + numbers[i];
-    }
-    return sum;
-  };
-  candidate.gap_misfit_m = [&data, value](const Eigen::VectorXd& numbers, std::size_t i) {
-    return value(numbers, data.points[i].volts) - data.points[i].gap_m;
-  };
-  const auto [weakest, strongest] =
-      std::ranges::minmax_element(data.points, {}, &SensorPoint::volts);
-  const double low_v = weakest->volts;
-  const double high_v = strongest->volts;
-  candidate.response = [&data, model, degree, low_v, high_v,
-                        peak_m](const Eigen::VectorXd& numbers) -> std::optional<Response<double>> {
-    constexpr int kPlaces = 1000;
-    if (model == ResponseModel::kLinear) {
-      return Response<double>{
-          .model = LinearResponse<double>{.gap_at_zero_m = numbers[0], .slope_m_per_v = numbers[1]},
-          .nearest_m = data.range.nearest_m,
-          .farthest_m = data.range.farthest_m,
-          .peak_m = peak_m};
-    }
-    PolynomialResponse<double> polynomial{
-        .coefficient = {}, .count = degree + 1, .volts_min = low_v, .volts_max = high_v};
-    std::copy(numbers.begin(), numbers.end(), polynomial.coefficient.begin());
-    if (!polynomial.is_monotone(kPlaces) || polynomial.value(high_v) > polynomial.value(low_v)) {
-      return std::nullopt;
-    }
-    return Response<double>{.model = polynomial,
-                            .nearest_m = data.range.nearest_m,
-                            .farthest_m = data.range.farthest_m,
-                            .peak_m = peak_m};
-  };
-  return finished(std::move(candidate), data);
-}
-
-std::vector<Candidate> candidates_for(ResponseModel model, const Weighed& data, double peak_m) {
-  constexpr std::size_t kHighestDegree = 6;
-  const std::size_t distinct = distinct_gaps(data.points);
-  std::vector<Candidate> candidates;
-  if (model == ResponseModel::kLinear) {
-    candidates.push_back(polynomial_candidate(model, 1, data, peak_m));
-  } else if (model == ResponseModel::kInverseSquare) {
-    candidates.push_back(curve_candidate(CurveKind::kInverseSquare, 0, data, peak_m));
-  } else {
-    for (std::size_t degree = 2; degree <= std::min(kHighestDegree, distinct - 2); ++degree) {
-      candidates.push_back(model == ResponseModel::kTable
-                               ? curve_candidate(CurveKind::kLogPolynomial, degree, data, peak_m)
-                               : polynomial_candidate(model, degree, data, peak_m));
-    }
-  }
-  return candidates;
-}
-
 std::size_t fewest_gaps(ResponseModel model) {
   switch (model) {
     case ResponseModel::kLinear:
@@ -239,7 +100,7 @@ std::size_t fewest_gaps(ResponseModel model) {
 }
 
 /// Greatest standard deviation of the curve at a point, in metres.
-double worst_curve_sigma_m(const Candidate& candidate, const Fit& fit, std::size_t points) {
+double worst_curve_sigma_m(const ResponseCandidate& candidate, const Fit& fit, std::size_t points) {
   double worst = 0;
   Eigen::VectorXd moved = fit.values;
   for (std::size_t i = 0; i < points; ++i) {
@@ -258,12 +119,12 @@ double worst_curve_sigma_m(const Candidate& candidate, const Fit& fit, std::size
 }
 
 /// The candidate that gains most for its numbers.
-tl::expected<void, Error> choose(const std::vector<Candidate>& candidates, const Weighed& data,
-                                 ResponseFit& result) {
+tl::expected<void, Error> choose(const std::vector<ResponseCandidate>& candidates,
+                                 const WeighedPoints& data, ResponseFit& result) {
   double least = std::numeric_limits<double>::infinity();
   double curve_sigma_m = 0;
   std::string why = "the signal does not keep falling as the gap grows";
-  for (const Candidate& candidate : candidates) {
+  for (const ResponseCandidate& candidate : candidates) {
     auto fit = fit_least_squares(candidate.parameters, data.points.size(), candidate.residuals);
     if (!fit) {
       why = fit.error().message;
@@ -301,20 +162,6 @@ tl::expected<void, Error> choose(const std::vector<Candidate>& candidates, const
 }
 
 }  // namespace
-
-std::string_view model_name(ResponseModel model) {
-  switch (model) {
-    case ResponseModel::kTable:
-      return "table";
-    case ResponseModel::kInverseSquare:
-      return "inverse_square";
-    case ResponseModel::kPolynomial:
-      return "polynomial";
-    case ResponseModel::kLinear:
-      break;
-  }
-  return "linear";
-}
 
 tl::expected<ResponseFit, Error> fit_response(std::vector<SensorPoint> points, ResponseModel model,
                                               const Response<double>& start,

@@ -2,9 +2,7 @@
 // Fits one sensor's response to points of known gap.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -12,14 +10,10 @@
 #include "hal/error.hpp"
 #include "host/calibration/points_table.hpp"
 #include "host/calibration/response_curve.hpp"
+#include "host/calibration/response_model.hpp"
 #include "host/fit/least_squares.hpp"
 
 namespace penduline {
-
-enum class ResponseModel { kTable, kInverseSquare, kPolynomial, kLinear };
-
-/// What a rig file calls it.
-[[nodiscard]] std::string_view model_name(ResponseModel model);
 
 /// A response that its points could determine.
 struct ResponseFit {
