@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/gauss_newton.hpp"
 #include "host/calibration/response_change.hpp"
@@ -26,14 +27,27 @@ struct RestGap {
   double drift_m = 0;     ///< of what changes more slowly
 };
 
+/// One recording's motion, and how long it was looked at.
+struct RestMotion {
+  SignalMotion motion;
+  double seconds = 0;
+};
+
+/// Most by which a swing has the means of first and last third differ: a sine's mean over n cycles
+/// is at most 1 / (pi n) of its amplitude.
+double drift_of_swing_v(const RestMotion& seen) {
+  const double cycles = seen.motion.swing_hz * seen.seconds / 3;
+  return 2 * std::numbers::sqrt2 * seen.motion.swing_v *
+         std::min(1.0, 1 / (std::numbers::pi * cycles));
+}
+
 /// Takes the recording's motion into account, as gaps.
-void take_motion(const SignalMotion& motion, double swing_hz, double slope_m_per_v, RestGap& rest) {
-  const bool swings = motion.swing_hz > swing_hz / 2;
+void take_motion(const RestMotion& seen, double swing_hz, double slope_m_per_v, RestGap& rest) {
+  const bool swings = seen.motion.swing_hz > swing_hz / 2;
   double& swing_or_drift_m = swings ? rest.swing_m : rest.drift_m;
-  swing_or_drift_m = std::max(swing_or_drift_m, motion.swing_v * slope_m_per_v);
-  if (!swings) {  // of a swing, the thirds may have unlike parts
-    rest.drift_m = std::max(rest.drift_m, std::abs(motion.drift_v) * slope_m_per_v);
-  }
+  swing_or_drift_m = std::max(swing_or_drift_m, seen.motion.swing_v * slope_m_per_v);
+  const double drift_v = std::abs(seen.motion.drift_v) - (swings ? drift_of_swing_v(seen) : 0);
+  rest.drift_m = std::max(rest.drift_m, drift_v * slope_m_per_v);
 }
 
 tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<SignalLog>& logs,
@@ -42,14 +56,16 @@ tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<Sign
   const std::string& name = rig.sensor_names[sensor];
   const double swing_hz = small_swing_hz(rig.rig.pendulum);
   std::vector<double> volts;
-  std::vector<SignalMotion> motions;
+  std::vector<RestMotion> motions;
   for (const SignalLog& log : logs) {
     const std::vector<double> signals = log.signals(sensor, log.t_s.front(), log.t_s.back());
     if (signals.size() < kFewestForMotion) {
       return failure(fmt::format("{}: found {} samples of sensor {}, expected {} or more", log.path,
                                  signals.size(), name, kFewestForMotion));
     }
-    motions.push_back(motion_of(signals, log.acquisition.rate_hz, 2 * swing_hz));
+    const double rate_hz = log.acquisition.rate_hz;
+    motions.push_back({.motion = motion_of(signals, rate_hz, 2 * swing_hz),
+                       .seconds = static_cast<double>(signals.size()) / rate_hz});
     volts.insert(volts.end(), signals.begin(), signals.end());
   }
   RestGap rest{.mean = mean_signal(volts)};
@@ -64,8 +80,8 @@ tl::expected<RestGap, Error> rest_gap(const RigFile& rig, const std::vector<Sign
   rest.gap_m = *reading.gap_m;
   rest.expected_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, sensor);
   rest.sigma_m = rest.mean.standard_error_v() * slope_m_per_v;
-  for (const SignalMotion& motion : motions) {
-    take_motion(motion, swing_hz, slope_m_per_v, rest);
+  for (const RestMotion& seen : motions) {
+    take_motion(seen, swing_hz, slope_m_per_v, rest);
   }
   return rest;
 }

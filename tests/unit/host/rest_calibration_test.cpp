@@ -109,6 +109,16 @@ TEST_CASE("Sensors that drift are not at rest", "[calibration]") {
   CHECK(error_of(log).find("and the sensors warm up") != std::string::npos);
 }
 
+TEST_CASE("A drift is seen beside a swing that is too small to matter, and a swing alone is none",
+          "[calibration]") {
+  SignalLog log = still(raised(), 0.03);  // 0.02 deg RMS
+  CHECK(error_of(log).empty());
+  for (std::size_t i = 0; i < log.t_s.size(); ++i) {
+    log.volts[i][0] *= 1 + 0.004 * static_cast<double>(i) / static_cast<double>(log.t_s.size());
+  }
+  CHECK_THAT(error_of(log), Catch::Contains("sensor Sx sees it drift by"));
+}
+
 TEST_CASE("A few samples are no rest", "[calibration]") {
   SignalLog log = still(raised());
   log.t_s.resize(19);
