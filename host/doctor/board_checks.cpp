@@ -47,20 +47,20 @@ Finding no_board(std::string reason) {
 }
 
 /// A command for each of several boards; "" where there are not several.
-std::string each_board(const std::vector<SerialDevice>& devices) {
+std::string each_board(const std::vector<SerialDevice>& devices, TypedNames names) {
   std::string commands;
   int count = 0;
   for (const SerialDevice& device : devices) {
     if (device.is_penduline()) {
-      commands += fmt::format("{}'penduline doctor auto:{}'", count++ > 0 ? " or " : "",
-                              device.identity.serial_number);
+      names.source = "auto:" + device.identity.serial_number;
+      commands += (count++ > 0 ? " or " : "") + names.again();
     }
   }
   return count > 1 ? commands : "";
 }
 
 /// The path of the port that `uri` means, or why there is none. Empty for a board without one.
-tl::expected<std::string, Finding> port_path(const SourceUri& uri) {
+tl::expected<std::string, Finding> port_path(const SourceUri& uri, const TypedNames& names) {
   if (uri.kind == SourceUri::Kind::kSerial) {
     return uri.path;
   }
@@ -70,7 +70,7 @@ tl::expected<std::string, Finding> port_path(const SourceUri& uri) {
   const std::vector<SerialDevice> devices = serial_devices();
   AutoChoice choice = choose_board(devices, uri.serial_number);
   if (choice.path.empty()) {
-    const std::string each = each_board(devices);
+    const std::string each = each_board(devices, names);
     return tl::unexpected(each.empty()
                               ? no_board(std::move(choice.reason))
                               : bad("board", std::move(choice.reason), "say which one: " + each));
@@ -132,10 +132,6 @@ std::optional<wire::Status> ask_status(BoardConnection& connection, const StopSi
   return std::nullopt;
 }
 
-double slower_hz(const wire::Status& status) {
-  return std::max(status.rate_millihz / 2, wire::kLeastRateMillihz) / 1000.0;
-}
-
 /// Its load and temperature, as far as it has them.
 std::string condition_of(const wire::Status& status, bool simulated) {
   constexpr double kCentidegrees = 100;
@@ -183,13 +179,13 @@ Finding check_health(const wire::Hello& hello, const std::optional<wire::Status>
             .subject = "health",
             .found = condition_of(*status, simulated),
             .advice = "samples may come late: sample more slowly: " +
-                      names.run(fmt::format("--rate {:g}", slower_hz(*status)))};
+                      names.run_slower(status->rate_millihz / 1e3)};
   }
   return {.subject = "health", .found = condition_of(*status, simulated)};
 }
 
 Findings check_board(const SourceUri& uri, const TypedNames& names, const StopSignal& stop) {
-  const auto path = port_path(uri);
+  const auto path = port_path(uri, names);
   if (!path) {
     return {path.error()};
   }

@@ -79,14 +79,16 @@ std::string name_of(const std::optional<RigFile>& rig, std::size_t sensor) {
 
 Finding too_few(const Survey& survey, const std::string& name, std::size_t count,
                 const TypedNames& names) {
-  const double seconds =
-      std::clamp(std::ceil(2 * kFewestForMotion / survey.acquisition.rate_hz), 10.0, 3600.0);
+  const double usable_hz =
+      survey.acquisition.rate_hz * static_cast<double>(count) / static_cast<double>(survey.samples);
+  const double seconds = std::clamp(std::ceil(2 * kFewestForMotion / usable_hz), 10.0, 3600.0);
+  const std::string_view first = survey.saturated > 0 ? "see to the saturation first; then " : "";
   return {.health = Health::kDoubtful,
           .subject = "pendulum",
           .found = fmt::format("found {} unsaturated samples of sensor {}, expected {} or more: "
                                "whether it hangs still, its zero and its noise cannot be told",
                                count, name, kFewestForMotion),
-          .advice = fmt::format("look for longer while it hangs still: {}",
+          .advice = fmt::format("{}look for longer while it hangs still: {}", first,
                                 names.again(fmt::format("--seconds {}", seconds)))};
 }
 
@@ -125,22 +127,29 @@ Finding hidden(const Survey& survey, const SeenMotion& motion, const std::string
           .advice = fmt::format("{}{}", kQuietenAdvice, longer)};
 }
 
+/// What the mean signal says; none outside the response's range.
+std::optional<double> rest_gap_m(const Survey& survey, std::size_t sensor, const RigFile& rig) {
+  const GapReading<double> reading =
+      rig.rig.responses[sensor].read(mean_signal(survey.sensors[sensor].signal_v).volts);
+  return reading.flags == 0 ? reading.gap_m : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> zero_deg(const Survey& survey, std::size_t sensor, const RigFile& rig) {
-  const GapReading<double> reading =
-      rig.rig.responses[sensor].read(mean_signal(survey.sensors[sensor].signal_v).volts);
+  const std::optional<double> gap_m = rest_gap_m(survey, sensor, rig);
   const double arm_m = rig.rig.layout.position_m[sensor].head<2>().norm();
-  if (!reading.gap_m || reading.flags != 0 || arm_m < kOnAxisM) {
+  if (!gap_m || arm_m < kOnAxisM) {
     return std::nullopt;
   }
   const double rest_m = DiscPlane<double>(Slopes<double>{}).gap_m(rig.rig.layout, sensor);
-  return (*reading.gap_m - rest_m) / arm_m / kDegree;
+  return (*gap_m - rest_m) / arm_m / kDegree;
 }
 
-bool is_near_zero(const Survey& survey, const RigFile& rig) {
+bool can_be_zeroed(const Survey& survey, const RigFile& rig) {
   for (std::size_t i = 0; i < rig.rig.layout.count; ++i) {
-    if (std::abs(zero_deg(survey, i, rig).value_or(0)) > kGrossZeroDeg) {
+    const bool has_gap = rest_gap_m(survey, i, rig).has_value();
+    if (!has_gap || std::abs(zero_deg(survey, i, rig).value_or(0)) > kGrossZeroDeg) {
       return false;
     }
   }

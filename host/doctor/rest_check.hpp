@@ -41,9 +41,9 @@ inline constexpr double kGrossZeroDeg = 5;
 [[nodiscard]] std::optional<double> zero_deg(const Survey& survey, std::size_t sensor,
                                              const RigFile& rig);
 
-/// Whether no sensor's zero is grossly off, so that zeroing makes sense. The rig must have as many
-/// sensors.
-[[nodiscard]] bool is_near_zero(const Survey& survey, const RigFile& rig);
+/// Whether zeroing makes sense: each sensor's mean signal means a gap, and no zero is grossly off.
+/// The rig must have as many sensors.
+[[nodiscard]] bool can_be_zeroed(const Survey& survey, const RigFile& rig);
 
 /// Of all sensors together. Motion counts from 0.1 deg on by a rig, which must have as many
 /// sensors, else from 0.5 % of a signal; and where it is certainly no noise: noise that hides as

@@ -252,7 +252,7 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
     findings.push_back(verdict->finding);
   }
   const Rest rest = verdict ? verdict->rest : Rest::kUnknown;
-  const bool zeroing = fitting && rest == Rest::kStill && is_near_zero(survey, *fitting);
+  const bool zeroing = fitting && rest == Rest::kStill && can_be_zeroed(survey, *fitting);
   for (std::size_t i = 0; i < count; ++i) {
     for (Finding& finding : SensorChecks(survey, i, fitting, names, rest, zeroing).findings()) {
       findings.push_back(std::move(finding));

@@ -10,8 +10,6 @@
 namespace penduline {
 namespace {
 
-/// As boards sample.
-constexpr double kSlowestBoardHz = 1;
 /// Of the samples.
 constexpr double kMostSaturated = 0.01;
 
@@ -23,13 +21,12 @@ Finding check_rate(const Survey& survey, const TypedNames& names) {
             .advice = "a long cable, a hub or a busy computer may hold it up; try another port"};
   }
   if (survey.lost + survey.late > 0) {
-    const double slower_hz = std::max(survey.acquisition.rate_hz / 2, kSlowestBoardHz);
     return {.health = Health::kDoubtful,
             .subject = "rate",
             .found = fmt::format("of {} samples {} lost, {} late", survey.samples + survey.lost,
                                  survey.lost, survey.late),
             .advice = fmt::format("try another port or cable, or sample more slowly: {}",
-                                  names.run(fmt::format("--rate {}", slower_hz)))};
+                                  names.run_slower(survey.acquisition.rate_hz))};
   }
   return {.subject = "rate",
           .found = fmt::format("{} samples at {} Hz, none lost, none late", survey.samples,

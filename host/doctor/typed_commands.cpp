@@ -6,20 +6,25 @@
 
 #include <algorithm>
 
+#include "common/wire/commands.hpp"
+
 namespace penduline {
 namespace {
+
+constexpr std::string_view kRecording = ".csv";
 
 std::string spaced(std::string_view options) {
   return options.empty() ? "" : fmt::format(" {}", options);
 }
 
 /// "still.csv", else "still-2.csv" and so on: what is there is never written over, so a command
-/// that reads it afterwards would read what is old.
-std::string free_name(const std::filesystem::path& folder, std::string_view stem) {
-  std::string name = fmt::format("{}.csv", stem);
+/// that writes it would fail, and one that reads it afterwards would read what is old.
+std::string free_name(const std::filesystem::path& folder, std::string_view stem,
+                      std::string_view extension) {
+  std::string name = fmt::format("{}{}", stem, extension);
   std::error_code not_there;
   for (int number = 2; std::filesystem::exists(folder / name, not_there); ++number) {
-    name = fmt::format("{}-{}.csv", stem, number);
+    name = fmt::format("{}-{}{}", stem, number, extension);
   }
   return name;
 }
@@ -46,22 +51,26 @@ std::string TypedNames::run(std::string_view options) const {
                      shell_word(needed_rig()), spaced(options));
 }
 
+std::string TypedNames::run_slower(double rate_hz) const {
+  constexpr double kLeastHz = wire::kLeastRateMillihz / 1e3;
+  return run(fmt::format("--rate {:g}", std::max(rate_hz / 2, kLeastHz)));
+}
+
 std::string TypedNames::again(std::string_view options) const {
   const std::string by_rig = rig.empty() ? "" : " --rig " + shell_word(rig);
   if (!recorded) {
     return fmt::format("'penduline doctor {}{}{}'", shell_word(source), by_rig, spaced(options));
   }
-  const std::string recording = free_name(folder, "still");
+  const std::string recording = free_name(folder, "still", kRecording);
   return fmt::format("{}, then 'penduline doctor file:{}{}'",
                      run(fmt::format("--record {} -o /dev/null", recording)), recording, by_rig);
 }
 
 std::string TypedNames::calibrate(std::string_view method, std::string_view duration) const {
-  const std::string recording = free_name(folder, method == "rest" ? "still" : method);
-  return fmt::format(
-      "{} for {} (Ctrl-C ends it), then 'penduline calibrate {} {} --rig {} -o new.toml'",
-      run(fmt::format("--record {} -o /dev/null", recording)), duration, method, recording,
-      shell_word(needed_rig()));
+  const std::string recording = free_name(folder, method == "rest" ? "still" : method, kRecording);
+  return fmt::format("{} for {} (Ctrl-C ends it), then 'penduline calibrate {} {} --rig {} -o {}'",
+                     run(fmt::format("--record {} -o /dev/null", recording)), duration, method,
+                     recording, shell_word(needed_rig()), free_name(folder, "new", ".toml"));
 }
 
 }  // namespace penduline

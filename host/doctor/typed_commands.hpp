@@ -13,11 +13,13 @@ struct TypedNames {
   std::string source = "auto";
   std::string rig{};      ///< "": not given; where a command needs one, it says rig.toml
   bool recorded = false;  ///< `source` is a recording, not a board
-  /// Where the user types: recordings in commands get names that no file has there.
+  /// Where the user types: files that commands write get names that no file has there.
   std::filesystem::path folder = ".";
 
   /// A run of the board: "'penduline run auto --rig rig.toml --rate 10'".
   [[nodiscard]] std::string run(std::string_view options) const;
+  /// The same at half the rate, or the least that a board has.
+  [[nodiscard]] std::string run_slower(double rate_hz) const;
   /// This check again: of a board by `options`, else of a new recording.
   [[nodiscard]] std::string again(std::string_view options = "") const;
   /// Recording, and calibrating by it: "'penduline run auto ...' for 20 s (Ctrl-C ends it), then

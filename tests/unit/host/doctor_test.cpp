@@ -294,7 +294,7 @@ TEST_CASE("Advice names commands as they are typed, with the user's names", "[do
              Catch::EndsWith("toml\" --emitter switched'"));
 }
 
-TEST_CASE("A recording in advice has a name that no file has yet", "[doctor]") {
+TEST_CASE("What advised commands write has a name that no file has yet", "[doctor]") {
   const TemporaryFolder folder;
   std::ofstream(folder.path("still.csv")) << "old";
   const TypedNames names{.rig = "a.toml", .recorded = true, .folder = folder.path()};
@@ -306,6 +306,8 @@ TEST_CASE("A recording in advice has a name that no file has yet", "[doctor]") {
         "'penduline run auto --rig a.toml --record still-3.csv -o /dev/null', then 'penduline "
         "doctor file:still-3.csv --rig a.toml'");
   CHECK_THAT(names.calibrate("swing", "60 s"), Catch::Contains("calibrate swing swing.csv"));
+  std::ofstream(folder.path("new.toml")) << "that of the last calibration";
+  CHECK_THAT(names.calibrate("rest", "20 s"), Catch::EndsWith("--rig a.toml -o new-2.toml'"));
 }
 
 TEST_CASE("With a rig, a still pendulum's zero and noise are held against it", "[doctor]") {
