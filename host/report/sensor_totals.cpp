@@ -13,7 +13,8 @@ void SensorTotals::take(const Sample& sample) {
   for (std::size_t i = 0; i < totals_.size(); ++i) {
     const SensorNow now = sensor_now(rig_, acquisition_, sample, i);
     SensorTotal& total = totals_[i];
-    total.saturated += now.saturated ? 1U : 0U;
+    total.saturated += now.saturated.value_or(false) ? 1U : 0U;
+    total.maybe_saturated += now.saturated ? 0U : 1U;
     total.out_of_range += now.out_of_range ? 1U : 0U;
     total.missing += now.signal_v ? 0U : 1U;
     if (now.ambient_v) {
@@ -33,6 +34,7 @@ std::string SensorTotals::json() const {
       ambient = {total.ambient_v->first, total.ambient_v->second};
     }
     sensors.push_back({{"saturated", total.saturated},
+                       {"maybe_saturated", total.maybe_saturated},
                        {"out_of_range", total.out_of_range},
                        {"missing", total.missing},
                        {"ambient_v", std::move(ambient)}});

@@ -56,7 +56,7 @@ Json sensor_state(const LiveSubject& subject, const Sample& sample, std::size_t 
   const SensorNow now = sensor_now(subject.rig.rig, subject.header->acquisition, sample, i);
   return {{"ambient_v", now.ambient_v ? Json(*now.ambient_v) : Json()},
           {"signal_v", now.signal_v ? Json(*now.signal_v) : Json()},
-          {"saturated", now.saturated},
+          {"saturated", now.saturated ? Json(*now.saturated) : Json()},
           {"out_of_range", now.out_of_range}};
 }
 

@@ -5,11 +5,31 @@
 #include <algorithm>
 
 namespace penduline {
+namespace {
+
+/// The flag is the sample's; a mean near the range's end says whose conversions it were.
+std::optional<bool> is_saturated(const Sample& sample, double full_scale_counts, std::size_t i) {
+  constexpr double kNearTheEnd = 0.9;
+  if ((sample.flags & flag::kSaturated) == 0) {
+    return false;
+  }
+  bool known = false;
+  for (std::size_t sensor = 0; sensor < sample.readings.size(); ++sensor) {
+    const Reading& reading = sample.readings[sensor];
+    const bool high = sample.has_reading(sensor) &&
+                      std::max(reading.on, reading.off) >= kNearTheEnd * full_scale_counts;
+    if (high && sensor == i) {
+      return true;
+    }
+    known = known || high;
+  }
+  return known ? std::optional(false) : std::nullopt;
+}
+
+}  // namespace
 
 SensorNow sensor_now(const Rig<double>& rig, const Acquisition<double>& acquisition,
                      const Sample& sample, std::size_t i) {
-  // The flag is the sample's; a mean near the range's end says whose conversions it were.
-  constexpr double kNearTheEnd = 0.9;
   SensorNow now;
   if (!sample.has_reading(i)) {
     return now;
@@ -19,9 +39,7 @@ SensorNow sensor_now(const Rig<double>& rig, const Acquisition<double>& acquisit
   if (reading.off != 0) {
     now.ambient_v = reading.off * acquisition.reference_v / acquisition.full_scale_counts;
   }
-  const bool high =
-      std::max(reading.on, reading.off) >= kNearTheEnd * acquisition.full_scale_counts;
-  now.saturated = (sample.flags & flag::kSaturated) != 0 && high;
+  now.saturated = is_saturated(sample, acquisition.full_scale_counts, i);
   now.out_of_range = (rig.responses[i].read(*now.signal_v).flags & flag::kOutOfRange) != 0;
   return now;
 }

@@ -13,7 +13,7 @@ namespace penduline {
 struct SensorNow {
   std::optional<double> ambient_v{};  ///< none where the board cannot switch its emitters
   std::optional<double> signal_v{};   ///< none where the sample has no reading
-  bool saturated = false;
+  std::optional<bool> saturated = false;  ///< none: one sensor is, and the means do not tell which
   bool out_of_range = false;  ///< of its response
 };
 

@@ -35,8 +35,8 @@ function recording() {
     },
     recorded: {
       with_angles: kRows - 19, analysed: { from_s: 0, first_swing_to_s: 1.102, to_s: 3600 },
-      sensors: [{ saturated: 12, out_of_range: 3, missing: 0, ambient_v: [0.01, 0.025] },
-        { saturated: 0, out_of_range: 0, missing: 1, ambient_v: [0.02, 0.02] }],
+      sensors: [{ saturated: 12, maybe_saturated: 2, out_of_range: 3, missing: 0, ambient_v: [0.01, 0.025] },
+        { saturated: 0, maybe_saturated: 2, out_of_range: 0, missing: 1, ambient_v: [0.02, 0.02] }],
     },
     notes: [{ t_s: 12, utc: null, kind: 'mark', text: '<img src=x onerror=alert(1)>' }],
     analysis: [['Period', '1.1020 s ± 0.0002 s'], ['Q', '<script>alert(2)</script>']],
@@ -96,7 +96,8 @@ test('the session is that of the whole recording, and the swing is said to be th
   const { page } = await openPage(browser, url);
   await drawn(page);
   const words = await page.textContent('#session-words');
-  assert.match(words, /Sx was saturated in 12 samples, out of its range in 3 samples, Sy was not read in 1 sample;/);
+  assert.match(words, new RegExp('One sensor was saturated in 2 samples, which one is not known, ' +
+    'Sx was saturated in 12 samples, out of its range in 3 samples, Sy was not read in 1 sample;'));
   assert.match(words, /Ambient light gave 0\.010 to 0\.025 V at Sx, 0\.020 V at Sy\./);
   assert.match(words, /19 samples without angles\./);
   assert.match(await page.innerText('#now'),

@@ -81,6 +81,9 @@ function signalSentence({ rig, reference_v }, sensors) {
   const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
   const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
     ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
+  if (sensors.some(({ saturated }) => saturated === null)) {
+    troubles.unshift('One sensor is saturated, which one is not known');
+  }
   const trouble = troubles.length ? troubles.join('; ') : 'None is saturated or out of its range';
   return Number.isFinite(reference_v) ? `${trouble}; full scale is ${fixed(reference_v, 2)} V.` : `${trouble}.`;
 }
@@ -103,6 +106,10 @@ function recordedSignalSentence({ rig, reference_v }, sensors) {
     ...(out_of_range ? [`out of its range in ${count(out_of_range, 'sample')}`] : []),
     ...(missing ? [`not read in ${count(missing, 'sample')}`] : []),
   ].map((trouble, n) => (n === 0 ? `${rig.sensors[i]?.name ?? i + 1} was ${trouble}` : trouble)));
+  const unknown = Math.max(...sensors.map(({ maybe_saturated }) => maybe_saturated));
+  if (unknown > 0) {
+    troubles.unshift(`One sensor was saturated in ${count(unknown, 'sample')}, which one is not known`);
+  }
   const trouble = troubles.length ? troubles.join(', ') : 'None was saturated or out of its range in any sample';
   return Number.isFinite(reference_v) ? `${trouble}; full scale is ${fixed(reference_v, 2)} V.` : `${trouble}.`;
 }
