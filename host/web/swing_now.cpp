@@ -46,13 +46,12 @@ double way_rad(const SwingEllipse& swing, bool wide) {
 PathEllipse path_of(const SwingEllipse& swing, double length_m) {
   constexpr double kSigmas = 3;
   const double width = swing.semi_minor_rad.value;
-  const double turns = std::floor(swing.orientation_rad.value / std::numbers::pi);
   const bool has_width = std::abs(width) > kSigmas * swing.semi_minor_rad.sigma;
   return {.a_m = length_m * std::sin(swing.semi_major_rad.value),
           .b_m = length_m * std::sin(std::abs(width)),
           .x_m = length_m * std::sin(swing.centre.x_rad),
           .y_m = length_m * std::sin(swing.centre.y_rad),
-          .orientation_rad = swing.orientation_rad.value - turns * std::numbers::pi,
+          .orientation_rad = std::remainder(swing.orientation_rad.value, std::numbers::pi),
           .sense = has_width ? (width > 0 ? 1 : -1) : 0};
 }
 

@@ -17,7 +17,7 @@ struct PathEllipse {
   double b_m = 0;  ///< half the minor one, 0 or more
   double x_m = 0;  ///< of its centre
   double y_m = 0;
-  double orientation_rad = 0;  ///< of the major axis, from X to Y, 0 to pi
+  double orientation_rad = 0;  ///< of the major axis, from X to Y, -pi/2 to pi/2
   /// Seen from above: 1 anticlockwise, -1 clockwise, 0 where the width is within three of its
   /// sigmas.
   int sense = 0;

@@ -20,10 +20,9 @@ export function aboveWords(ellipse, span = null) {
   }
   const { a_m, b_m, orientation_rad, sense } = ellipse;
   const way = sense ? `, ${sense === 'left' ? 'anticlockwise' : 'clockwise'}` : '';
-  const degrees = ((((orientation_rad * 180) / Math.PI) % 180) + 180) % 180;
   const which = span ? ` of the swing from ${clock(span[0], 1)} to ${clock(span[1], 1)}:` : ' of';
   return `Ellipse${which} ${fixed(2000 * a_m, 1)} mm by ${fixed(2000 * b_m, 1)} mm, ` +
-    `its long axis ${fixed(degrees, 1)}° from x${way}.`;
+    `its long axis ${fixed((180 * orientation_rad) / Math.PI, 1)}° from x${way}.`;
 }
 
 export function gapsWords(series, row, sensors) {
