@@ -174,6 +174,9 @@ ExitStatus report(const ReportOptions& options) {
   if (const auto distinct = require_distinct_files(paths); !distinct) {
     return log_failure(distinct.error());
   }
+  if (const auto folder = require_folder(options.output_path); !folder) {
+    return log_failure(folder.error());
+  }
   const auto rig = load_rig(options.rig_path);
   if (!rig) {
     return log_failure(rig.error());

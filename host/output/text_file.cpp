@@ -93,6 +93,16 @@ tl::expected<void, Error> require_file(const std::string& path) {
   return {};
 }
 
+tl::expected<void, Error> require_folder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code failed;  // of a folder that may not be looked into, writing says more
+  const std::filesystem::file_status status = std::filesystem::status(folder, failed);
+  if (!folder.empty() && status_known(status) && !is_directory(status)) {
+    return failure(fmt::format("{}: there is no folder {}", path, folder.string()));
+  }
+  return {};
+}
+
 tl::expected<void, Error> require_distinct_files(std::span<const std::string> paths) {
   const auto same_file = [](const std::string& one, const std::string& other) {
     std::error_code failed;

@@ -51,6 +51,9 @@ class TextFile {
 /// Fails where a file to be read is the standard input, which can be read once only.
 [[nodiscard]] tl::expected<void, Error> require_file(const std::string& path);
 
+/// Fails where a file to be written has no folder to stand in: long work says so before it begins.
+[[nodiscard]] tl::expected<void, Error> require_folder(const std::string& path);
+
 /// Fails where one path of `paths` stands for a file that another does: what is read would be
 /// overwritten, or two texts would mix. "" does not count, devices may stand there twice.
 [[nodiscard]] tl::expected<void, Error> require_distinct_files(std::span<const std::string> paths);
