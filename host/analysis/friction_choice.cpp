@@ -99,6 +99,9 @@ tl::expected<FrictionChoice, Error> choose_friction(const AngleSeries& series,
       guess = first->model;
     }
     auto fit = fit_swing(series, terms, guess, noise, stopped);
+    if (!fit && stopped && stopped()) {
+      return tl::unexpected(fit.error());
+    }
     fits.push_back(fit ? std::move(*fit) : no_fit(*first, terms));
   }
   const SwingFit& full = fits.back();

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -24,18 +23,22 @@ constexpr int kNone = -1;
 /// Longer than any line of a recording, and soon read.
 constexpr std::size_t kMostBehindLine = 65536;
 
-/// Where the last line of the first `size` bytes ends; 0 where they are few and none ends. None
+/// Where the last line of the first `size` bytes ends; 0 where they are few and none ends. Fails
 /// where no line ends in the last 64 KiB of more, or they cannot be read.
-std::optional<std::uint64_t> end_of_lines(int file, std::uint64_t size) {
+tl::expected<std::uint64_t, Error> end_of_lines(int file, std::uint64_t size) {
   std::vector<char> tail(std::min<std::uint64_t>(size, kMostBehindLine));
   const std::uint64_t begin = size - tail.size();
   const auto got = ::pread(file, tail.data(), tail.size(), static_cast<off_t>(begin));
-  const std::string_view text(tail.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-  const auto newline = text.rfind('\n');
-  if (newline != std::string_view::npos) {
-    return begin + newline + 1;
+  if (got < 0) {
+    return failure(std::strerror(errno));
   }
-  return got >= 0 && begin == 0 ? std::optional<std::uint64_t>(0) : std::nullopt;
+  const std::string_view text(tail.data(), static_cast<std::size_t>(got));
+  const auto newline = text.rfind('\n');
+  if (newline == std::string_view::npos && begin > 0) {
+    return failure(fmt::format("found no line that ends in its last {} bytes, expected a recording",
+                               kMostBehindLine));
+  }
+  return newline == std::string_view::npos ? 0 : begin + newline + 1;
 }
 
 }  // namespace
@@ -52,10 +55,7 @@ tl::expected<RecordingDownload, Error> RecordingDownload::open(const std::string
   }
   const auto end = end_of_lines(download.file_, static_cast<std::uint64_t>(status.st_size));
   if (!end) {
-    return failure(
-        fmt::format("{}: found no line that ends in its last {} bytes, expected a "
-                    "recording",
-                    path, kMostBehindLine));
+    return failure(fmt::format("{}: {}", path, end.error().message));
   }
   download.size_ = *end;
   return download;
