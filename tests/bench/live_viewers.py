@@ -34,7 +34,10 @@ def take(connections, for_s):
     end = time.monotonic() + for_s
     while (left := end - time.monotonic()) > 0:
         for number, _ in poll.poll(left * 1e3):
-            count += len(by_number[number].recv(1 << 20))
+            piece = by_number[number].recv(1 << 20)
+            if not piece:
+                sys.exit("the run has sent a viewer away")
+            count += len(piece)
     return count
 
 
@@ -45,6 +48,8 @@ def measure(rate_hz, viewers):
     connections = [connect(port) for _ in range(viewers)]
     for connection in connections:
         connection.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+        if not connection.recv(1 << 20).startswith(b"HTTP/1.1 200 "):
+            sys.exit("the run has refused a viewer")
     take(connections, SETTLING_S)
     begin_s, core_s = time.monotonic(), core_seconds(run.process)
     received = take(connections, MEASURED_S)
@@ -55,7 +60,7 @@ def measure(rate_hz, viewers):
     run.process.terminate()
     status, said = run.end()
     if status != 0 or not any(" 0 lost, " in line for line in said):
-        print("\n".join(said), file=sys.stderr)
+        sys.exit("\n".join(["the run did not end well:", *said]))
     name = f"{rate_hz} Hz, {viewers} viewer{'s' * (viewers != 1)}"
     return {"name": name, "rate_hz": rate_hz, "viewers": viewers, "core_share": share,
             "bytes_per_viewer_s": received / taken_s / max(viewers, 1)}
