@@ -135,8 +135,11 @@ ExitStatus examine(const DoctorOptions& options, const SourceUri& uri) {
     }
     rig = std::move(*read);
   }
-  const TypedNames names{
-      .source = options.uri, .rig = options.rig_path, .recorded = !uri.is_board()};
+  const bool as_usual = options.seconds == DoctorOptions{}.seconds;
+  const TypedNames names{.source = options.uri,
+                         .rig = options.rig_path,
+                         .recorded = !uri.is_board(),
+                         .seconds = as_usual ? std::nullopt : std::optional(options.seconds)};
   const StopSignal stop;
   Report report;
   if (uri.is_board()) {

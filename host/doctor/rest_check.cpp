@@ -12,6 +12,7 @@
 #include "common/dynamics.hpp"
 #include "host/calibration/signal_log.hpp"
 #include "host/calibration/signal_motion.hpp"
+#include "host/doctor/sensor_name.hpp"
 #include "host/units.hpp"
 
 namespace penduline {
@@ -73,10 +74,6 @@ SeenMotion motion_of_sensor(const Survey& survey, std::size_t sensor,
               "% of its signal");
 }
 
-std::string name_of(const std::optional<RigFile>& rig, std::size_t sensor) {
-  return rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1);
-}
-
 Finding too_few(const Survey& survey, const std::string& name, std::size_t count,
                 const TypedNames& names) {
   const double usable_hz =
@@ -89,7 +86,7 @@ Finding too_few(const Survey& survey, const std::string& name, std::size_t count
                                "whether it hangs still, its zero and its noise cannot be told",
                                count, name, kFewestForMotion),
           .advice = fmt::format("{}look for longer while it hangs still: {}", first,
-                                names.again(fmt::format("--seconds {}", seconds)))};
+                                names.again_for(seconds))};
 }
 
 Finding moving(const SeenMotion& motion, const std::string& name, const TypedNames& names) {
@@ -115,8 +112,7 @@ Finding hidden(const Survey& survey, const SeenMotion& motion, const std::string
   const double enough = std::pow(kHiddenErrors * motion.noise / motion.most, 2);
   const double seconds = std::ceil(1.2 * enough / survey.acquisition.rate_hz);
   const std::string longer = seconds < kLongestMotionSpanS && !names.recorded
-                                 ? fmt::format("; or look for longer: {}",
-                                               names.again(fmt::format("--seconds {}", seconds)))
+                                 ? fmt::format("; or look for longer: {}", names.again_for(seconds))
                                  : "";
   return {.health = Health::kDoubtful,
           .subject = "pendulum",
@@ -170,7 +166,7 @@ std::optional<RestVerdict> check_rest(const Survey& survey, const std::optional<
     }
     if (volts.size() < kFewestForMotion) {
       return RestVerdict{.rest = Rest::kUnknown,
-                         .finding = too_few(survey, name_of(rig, i), volts.size(), names)};
+                         .finding = too_few(survey, sensor_name(rig, i), volts.size(), names)};
     }
     const SeenMotion motion = motion_of_sensor(survey, i, rig);
     if (!most || motion.share_of_most() > most->share_of_most()) {
@@ -187,11 +183,11 @@ std::optional<RestVerdict> check_rest(const Survey& survey, const std::optional<
   }
   if (most->share_of_most() > 1) {
     return RestVerdict{.rest = Rest::kMoving,
-                       .finding = moving(*most, name_of(rig, moves_most), names)};
+                       .finding = moving(*most, sensor_name(rig, moves_most), names)};
   }
   if (noisiest->hidden > noisiest->most) {
     return RestVerdict{.rest = Rest::kHidden,
-                       .finding = hidden(survey, *noisiest, name_of(rig, hides_most), names)};
+                       .finding = hidden(survey, *noisiest, sensor_name(rig, hides_most), names)};
   }
   return RestVerdict{
       .rest = Rest::kStill,

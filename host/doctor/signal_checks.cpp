@@ -12,6 +12,8 @@
 #include "host/calibration/signal_log.hpp"
 #include "host/calibration/signal_motion.hpp"
 #include "host/doctor/rest_check.hpp"
+#include "host/doctor/saturation_check.hpp"
+#include "host/doctor/sensor_name.hpp"
 #include "host/units.hpp"
 
 namespace penduline {
@@ -45,7 +47,7 @@ class SensorChecks {
         names_(names),
         rest_(rest),
         may_zero_(may_zero),
-        name_(rig ? rig->sensor_names[sensor] : std::to_string(sensor + 1)),
+        name_(sensor_name(rig, sensor)),
         signal_(mean_signal(survey.sensors[sensor].signal_v)),
         noise_v_(std::min(signal_.scatter_v, noise_of(survey.sensors[sensor].signal_v))),
         ambient_(mean_signal(survey.sensors[sensor].ambient_v)) {}
@@ -239,6 +241,8 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
   }
   const std::size_t count = survey.acquisition.sensor_count;
   const bool fits = rig && rig->rig.layout.count == count;
+  const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
+  findings.push_back(check_saturation(survey, fitting));
   if (rig && !fits) {
     findings.push_back({.health = Health::kBad,
                         .subject = "rig",
@@ -246,7 +250,6 @@ Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
                                              rig->rig.layout.count, count),
                         .advice = "give the rig file of this pendulum"});
   }
-  const std::optional<RigFile> fitting = fits ? rig : std::nullopt;
   const auto verdict = check_rest(survey, fitting, names);
   if (verdict) {
     findings.push_back(verdict->finding);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What samples say of the sensors: the light, whether the pendulum rests, the noise, the gaps.
+// What samples say of the sensors: saturation, light, whether the pendulum rests, noise, gaps.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace penduline {
 
-/// Each sensor's ambient light and signal, and whether the pendulum hangs still. Where it does, or
-/// noise hides whether it does, each sensor's noise; where a rig with as many sensors is given, its
-/// gap, and if still its zero, too.
+/// Saturation, each sensor's ambient light and signal, and whether the pendulum hangs still. Where
+/// it does, or noise hides whether it does, each sensor's noise; where a rig with as many sensors
+/// is given, its gap, and if still its zero, too.
 [[nodiscard]] Findings check_sensors(const Survey& survey, const std::optional<RigFile>& rig,
                                      const TypedNames& names);
 

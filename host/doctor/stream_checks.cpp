@@ -10,9 +10,6 @@
 namespace penduline {
 namespace {
 
-/// Of the samples.
-constexpr double kMostSaturated = 0.01;
-
 Finding check_rate(const Survey& survey, const TypedNames& names) {
   if (!survey.rate_complaint.empty()) {
     return {.health = Health::kDoubtful,
@@ -33,22 +30,6 @@ Finding check_rate(const Survey& survey, const TypedNames& names) {
                                survey.acquisition.rate_hz)};
 }
 
-Finding check_saturation(const Survey& survey) {
-  const double share = static_cast<double>(survey.saturated) / static_cast<double>(survey.samples);
-  return {.health = survey.saturated == 0    ? Health::kGood
-                    : share < kMostSaturated ? Health::kDoubtful
-                                             : Health::kBad,
-          .subject = "saturation",
-          .found = survey.saturated == 0
-                       ? "none"
-                       : fmt::format("{} of {} samples reach the end of the ADC's range",
-                                     survey.saturated, survey.samples),
-          .advice = survey.saturated == 0
-                        ? ""
-                        : "take a smaller load resistor or less emitter current "
-                          "(docs/hardware.md), a larger gap, or shade the sensor"};
-}
-
 }  // namespace
 
 Findings check_stream(const Survey& survey, const TypedNames& names) {
@@ -58,7 +39,7 @@ Findings check_stream(const Survey& survey, const TypedNames& names) {
              .found = "no sample came",
              .advice = "unplug the board and plug it in again; if that does not help, flash it"}};
   }
-  Findings findings = {check_rate(survey, names), check_saturation(survey)};
+  Findings findings = {check_rate(survey, names)};
   for (const std::string& complaint : survey.complaints) {
     findings.push_back({.health = Health::kDoubtful,
                         .subject = "stream",

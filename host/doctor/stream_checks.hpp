@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether all samples come, in time and within the ADC's range.
+// Whether all samples come, and in time.
 #pragma once
 
 #include "host/doctor/finding.hpp"
@@ -8,7 +8,7 @@
 
 namespace penduline {
 
-/// Rate, lost and late samples, saturation.
+/// Rate, lost and late samples, the source's complaints.
 [[nodiscard]] Findings check_stream(const Survey& survey, const TypedNames& names);
 
 }  // namespace penduline

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "host/saturation.hpp"
 #include "host/session/progress_bar.hpp"
 #include "host/session/summary.hpp"
 
@@ -17,8 +18,7 @@ constexpr std::chrono::seconds kPatience{5};
 void take(Survey& survey, const Sample& sample) {
   const double volts_per_count =
       survey.acquisition.reference_v / survey.acquisition.full_scale_counts;
-  const bool saturated = (sample.flags & flag::kSaturated) != 0;
-  survey.saturated += saturated ? 1U : 0U;
+  survey.saturated += (sample.flags & flag::kSaturated) != 0 ? 1U : 0U;
   survey.late += (sample.flags & flag::kLate) != 0 ? 1U : 0U;
   for (std::size_t i = 0; i < survey.acquisition.sensor_count; ++i) {
     if (!sample.has_reading(i)) {
@@ -26,7 +26,9 @@ void take(Survey& survey, const Sample& sample) {
     }
     SensorSurvey& sensor = survey.sensors[i];
     sensor.ambient_v.push_back(sample.readings[i].off * volts_per_count);
-    if (!saturated) {
+    const auto saturated = is_saturated(sample, survey.acquisition.full_scale_counts, i);
+    sensor.saturated += saturated.value_or(false) ? 1U : 0U;
+    if (!saturated.value_or(true)) {
       sensor.signal_v.push_back(signal_v(sample.readings[i], survey.acquisition));
     }
   }

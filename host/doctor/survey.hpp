@@ -18,8 +18,9 @@ namespace penduline {
 
 /// What one sensor has read, sample by sample, in volts.
 struct SensorSurvey {
-  std::vector<double> signal_v;   ///< lit less dark, of samples that are not saturated
+  std::vector<double> signal_v;   ///< lit less dark, where it is not saturated
   std::vector<double> ambient_v;  ///< dark
+  std::uint64_t saturated = 0;    ///< samples of which it is known
 };
 
 struct Survey {
@@ -27,7 +28,7 @@ struct Survey {
   std::uint64_t samples = 0;
   std::uint64_t lost = 0;
   std::uint64_t late = 0;
-  std::uint64_t saturated = 0;
+  std::uint64_t saturated = 0;  ///< samples, whichever sensor it was
   std::array<SensorSurvey, kMaxSensors> sensors{};
   std::string rate_complaint{};           ///< in words; empty where the rate is the nominal one
   std::vector<std::string> complaints{};  ///< of the source, in words

@@ -56,21 +56,29 @@ std::string TypedNames::run_slower(double rate_hz) const {
   return run(fmt::format("--rate {:g}", std::max(rate_hz / 2, kLeastHz)));
 }
 
-std::string TypedNames::again(std::string_view options) const {
-  const std::string by_rig = rig.empty() ? "" : " --rig " + shell_word(rig);
+std::string TypedNames::again_for(std::optional<double> for_s) const {
+  constexpr double kEnoughS = 10;
+  const std::string options = (rig.empty() ? "" : " --rig " + shell_word(rig)) +
+                              (for_s ? fmt::format(" --seconds {:g}", *for_s) : "");
   if (!recorded) {
-    return fmt::format("'penduline doctor {}{}{}'", shell_word(source), by_rig, spaced(options));
+    return fmt::format("'penduline doctor {}{}'", shell_word(source), options);
   }
   const std::string recording = free_name(folder, "still", kRecording);
   return fmt::format("{}, then 'penduline doctor file:{}{}'",
-                     run(fmt::format("--record {} -o /dev/null", recording)), recording, by_rig);
+                     record(recording, fmt::format("{:g} s", for_s.value_or(kEnoughS))), recording,
+                     options);
 }
 
 std::string TypedNames::calibrate(std::string_view method, std::string_view duration) const {
   const std::string recording = free_name(folder, method == "rest" ? "still" : method, kRecording);
-  return fmt::format("{} for {} (Ctrl-C ends it), then 'penduline calibrate {} {} --rig {} -o {}'",
-                     run(fmt::format("--record {} -o /dev/null", recording)), duration, method,
-                     recording, shell_word(needed_rig()), free_name(folder, "new", ".toml"));
+  return fmt::format("{}, then 'penduline calibrate {} {} --rig {} -o {}'",
+                     record(recording, duration), method, recording, shell_word(needed_rig()),
+                     free_name(folder, "new", ".toml"));
+}
+
+std::string TypedNames::record(std::string_view recording, std::string_view duration) const {
+  return fmt::format("{} for {} (Ctrl-C ends it)",
+                     run(fmt::format("--record {} -o /dev/null", recording)), duration);
 }
 
 }  // namespace penduline

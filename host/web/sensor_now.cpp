@@ -2,31 +2,9 @@
 // From counts to volts and what they mean.
 #include "host/web/sensor_now.hpp"
 
-#include <algorithm>
+#include "host/saturation.hpp"
 
 namespace penduline {
-namespace {
-
-/// The flag is the sample's; a mean near the range's end says whose conversions it were.
-std::optional<bool> is_saturated(const Sample& sample, double full_scale_counts, std::size_t i) {
-  constexpr double kNearTheEnd = 0.9;
-  if ((sample.flags & flag::kSaturated) == 0) {
-    return false;
-  }
-  bool known = false;
-  for (std::size_t sensor = 0; sensor < sample.readings.size(); ++sensor) {
-    const Reading& reading = sample.readings[sensor];
-    const bool high = sample.has_reading(sensor) &&
-                      std::max(reading.on, reading.off) >= kNearTheEnd * full_scale_counts;
-    if (high && sensor == i) {
-      return true;
-    }
-    known = known || high;
-  }
-  return known ? std::optional(false) : std::nullopt;
-}
-
-}  // namespace
 
 SensorNow sensor_now(const Rig<double>& rig, const Acquisition<double>& acquisition,
                      const Sample& sample, std::size_t i) {

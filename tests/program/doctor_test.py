@@ -16,6 +16,7 @@ from sim_board import WITHOUT_PTS, SimBoard
 
 RIG = RIGS / "tcrt5000.toml"
 STILL = ["--held", "--theta-deg", "0"]
+SATURATED = 1
 
 
 def verdicts(done):
@@ -157,6 +158,19 @@ class DoctorTest(ProgramTest):
     def test_saturation_is_bad(self):
         found = self.examine(*STILL, "--ambient", "3.25", status=1)
         self.assertEqual(found["saturation"][0], "bad")
+
+    def test_a_saturated_sensor_is_named_and_the_other_is_not_blamed(self):
+        recording, _ = self.simulate("--seconds", "10", *STILL, rig=RIG.name)
+        lines = recording.read_text().splitlines()
+        for i, line in enumerate(lines):
+            if line[0].isdigit():
+                cells = line.split(",")
+                lines[i] = ",".join([*cells[:2], "65535", *cells[3:-1], str(int(cells[-1]) | SATURATED)])
+        saturated = self.write("saturated.csv", "\n".join(lines) + "\n")
+        found = verdicts(run("doctor", f"file:{saturated}", "--rig", RIG, status=1))
+        self.assertRegex(found["saturation"][1], r"^(\d+) of \1 samples .*: sensor Sx in \1$")
+        self.assertEqual(found["sensor Sx signal"][0], "bad")
+        self.assertEqual(found["sensor Sy signal"][0], "good")
 
     def test_a_pendulum_that_is_not_at_rest_where_the_rig_has_it(self):
         health, text, advice = self.examine("--held", "--theta-deg", "1", "--phi-deg", "45")["sensor Sx gap"]

@@ -72,7 +72,7 @@ TEST_CASE("A good stream is good, in numbers", "[doctor]") {
   const Findings findings = check_stream(good_survey(), {});
   CHECK(about(findings, "rate").health == Health::kGood);
   CHECK(about(findings, "rate").found == "100 samples at 20 Hz, none lost, none late");
-  CHECK(about(findings, "saturation").found == "none");
+  CHECK(about(check_sensors(good_survey(), std::nullopt, {}), "saturation").found == "none");
 }
 
 TEST_CASE("A stream without samples is bad, and its sensors are not judged", "[doctor]") {
@@ -97,9 +97,14 @@ TEST_CASE("Some saturated samples are doubtful, more than 1 % are bad", "[doctor
   Survey survey = good_survey();
   survey.samples = 1000;
   survey.saturated = 9;
-  CHECK(about(check_stream(survey, {}), "saturation").health == Health::kDoubtful);
+  survey.sensors[1].saturated = 8;
+  const auto saturation = [&] {
+    return about(check_sensors(survey, std::nullopt, {}), "saturation");
+  };
+  CHECK(saturation().health == Health::kDoubtful);
+  CHECK(saturation().found == "9 of 1000 samples reach the end of the ADC's range: sensor 2 in 8");
   survey.saturated = 10;
-  CHECK(about(check_stream(survey, {}), "saturation").health == Health::kBad);
+  CHECK(saturation().health == Health::kBad);
 }
 
 TEST_CASE("Ambient light is judged by its share of the ADC's range", "[doctor]") {
@@ -278,11 +283,14 @@ TEST_CASE("Advice names commands as they are typed, with the user's names", "[do
   const TypedNames names{.source = "serial:/dev/ttyACM0", .rig = "my rig.toml"};
   CHECK(names.run("--rate 10") ==
         "'penduline run serial:/dev/ttyACM0 --rig \"my rig.toml\" --rate 10'");
-  CHECK(TypedNames{}.again("--seconds 10") == "'penduline doctor auto --seconds 10'");
+  CHECK(TypedNames{}.again() == "'penduline doctor auto'");
+  CHECK(TypedNames{.seconds = 60}.again() == "'penduline doctor auto --seconds 60'");
   const TemporaryFolder folder;
   CHECK(TypedNames{.source = "file:rec.csv", .recorded = true, .folder = folder.path()}.again() ==
-        "'penduline run auto --rig rig.toml --record still.csv -o /dev/null', then 'penduline "
-        "doctor file:still.csv'");
+        "'penduline run auto --rig rig.toml --record still.csv -o /dev/null' for 10 s (Ctrl-C ends "
+        "it), then 'penduline doctor file:still.csv'");
+  CHECK_THAT(TypedNames{.recorded = true}.again_for(40),
+             Catch::Contains("' for 40 s (Ctrl-C ends it)") && Catch::EndsWith(" --seconds 40'"));
   CHECK(TypedNames{.rig = "a.toml", .folder = folder.path()}.calibrate("rest", "20 s") ==
         "'penduline run auto --rig a.toml --record still.csv -o /dev/null' for 20 s (Ctrl-C ends "
         "it), then 'penduline calibrate rest still.csv --rig a.toml -o new.toml'");
@@ -303,8 +311,8 @@ TEST_CASE("What advised commands write has a name that no file has yet", "[docto
         "it), then 'penduline calibrate rest still-2.csv --rig a.toml -o new.toml'");
   std::ofstream(folder.path("still-2.csv")) << "old, too";
   CHECK(names.again() ==
-        "'penduline run auto --rig a.toml --record still-3.csv -o /dev/null', then 'penduline "
-        "doctor file:still-3.csv --rig a.toml'");
+        "'penduline run auto --rig a.toml --record still-3.csv -o /dev/null' for 10 s (Ctrl-C ends "
+        "it), then 'penduline doctor file:still-3.csv --rig a.toml'");
   CHECK_THAT(names.calibrate("swing", "60 s"), Catch::Contains("calibrate swing swing.csv"));
   std::ofstream(folder.path("new.toml")) << "that of the last calibration";
   CHECK_THAT(names.calibrate("rest", "20 s"), Catch::EndsWith("--rig a.toml -o new-2.toml'"));
