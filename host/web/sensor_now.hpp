@@ -11,10 +11,10 @@
 namespace penduline {
 
 struct SensorNow {
-  std::optional<double> ambient_v{};  ///< none where the board cannot switch its emitters
-  std::optional<double> signal_v{};   ///< none where the sample has no reading
+  std::optional<double> ambient_v{};      ///< none where the board cannot switch its emitters
+  std::optional<double> signal_v{};       ///< none where the sample has no reading
   std::optional<bool> saturated = false;  ///< none: one sensor is, and the means do not tell which
-  bool out_of_range = false;  ///< of its response
+  bool out_of_range = false;              ///< of its response
 };
 
 /// Of the rig's sensor number `i`, from 0.
