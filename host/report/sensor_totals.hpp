@@ -14,7 +14,7 @@
 namespace penduline {
 
 struct SensorTotal {
-  std::uint64_t saturated = 0;  ///< samples, as are the others
+  std::uint64_t saturated = 0;        ///< samples, as are the others
   std::uint64_t maybe_saturated = 0;  ///< one sensor was, and the means do not tell which
   std::uint64_t out_of_range = 0;
   std::uint64_t missing = 0;  ///< without a reading
