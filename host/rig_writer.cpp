@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "hal/replay/line_reader.hpp"
 #include "hal/replay/toml_text.hpp"
-#include "host/output/text_file.hpp"
 #include "host/rig_file.hpp"
 
 namespace penduline {
@@ -188,25 +186,6 @@ tl::expected<std::string, Error> rewritten_rig(const std::string& path, const Ri
     return tl::unexpected(written.error());
   }
   return text;
-}
-
-tl::expected<void, Error> put_file(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  auto file = TextFile::create(unfinished);
-  if (!file) {
-    return tl::unexpected(file.error());
-  }
-  file->text() = text;
-  std::error_code error;
-  if (auto flushed = file->flush(); !flushed) {
-    std::filesystem::remove(unfinished, error);
-    return flushed;
-  }
-  std::filesystem::rename(unfinished, path, error);
-  if (error) {
-    return failure(fmt::format("{}: cannot write: {}", path, error.message()));
-  }
-  return {};
 }
 
 }  // namespace penduline

@@ -31,7 +31,4 @@ struct RigChanges {
                                                              const RigChanges& changes,
                                                              const CalibrationRecord& record);
 
-/// Puts a text into a file, which is there whole or not at all.
-[[nodiscard]] tl::expected<void, Error> put_file(const std::string& path, const std::string& text);
-
 }  // namespace penduline

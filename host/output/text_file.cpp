@@ -86,6 +86,27 @@ tl::expected<void, Error> TextFile::write_piece() {
   return {};
 }
 
+tl::expected<void, Error> put_file(const std::string& path, const std::string& text) {
+  const std::string unfinished = path + ".part";
+  auto file = TextFile::create(unfinished);
+  if (!file) {
+    return tl::unexpected(file.error());
+  }
+  file->text() = text;
+  std::error_code error;
+  if (auto flushed = file->flush(); !flushed) {
+    std::filesystem::remove(unfinished, error);
+    return flushed;
+  }
+  std::filesystem::rename(unfinished, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    return failure(fmt::format("{}: cannot write: {}", path, error.message()));
+  }
+  return {};
+}
+
 tl::expected<void, Error> require_file(const std::string& path) {
   if (path == "-") {
     return failure("found the standard input, expected a file: it is read more than once");

@@ -43,6 +43,10 @@ class TextFile {
   std::string text_;
 };
 
+/// Puts a text into a file, which is there whole or not at all: what stood there before stays until
+/// all is written.
+[[nodiscard]] tl::expected<void, Error> put_file(const std::string& path, const std::string& text);
+
 /// The path of a file to be read, for `require_distinct_files`: "" for the standard input.
 [[nodiscard]] inline std::string named_input(const std::string& path) {
   return path == "-" ? "" : path;

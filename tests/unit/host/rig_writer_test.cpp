@@ -125,11 +125,3 @@ TEST_CASE("A rig that cannot be read is not rewritten", "[rig_writer]") {
   REQUIRE_FALSE(text);
   CHECK(text.error().message.starts_with("missing.toml: "));
 }
-
-TEST_CASE("A file appears whole, and nothing beside it", "[rig_writer]") {
-  const TemporaryFolder folder;
-  REQUIRE(put_file(folder.path("rig.toml"), "[pendulum]\n"));
-  std::ifstream file(folder.path("rig.toml"));
-  CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "[pendulum]\n");
-  CHECK_FALSE(std::filesystem::exists(folder.path("rig.toml.part")));
-}

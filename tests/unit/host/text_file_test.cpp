@@ -7,16 +7,41 @@
 
 #include <catch2/catch.hpp>
 #include <climits>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "tests/unit/host/fifo.hpp"
+#include "tests/unit/host/small_disk.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace {
 
 using namespace penduline;
 using namespace penduline::test;
+
+TEST_CASE("A file is put whole, and nothing beside it", "[output]") {
+  const TemporaryFolder folder;
+  REQUIRE(put_file(folder.path("rig.toml"), "[pendulum]\n"));
+  CHECK(text_of(folder.path("rig.toml")) == "[pendulum]\n");
+  CHECK_FALSE(std::filesystem::exists(folder.path("rig.toml.part")));
+}
+
+TEST_CASE("A file that cannot be put leaves what was there, and nothing beside it", "[output]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("rig.toml", "before");
+  {
+    const SmallDisk disk(4096);
+    const auto put = put_file(path, std::string(5000, 'x'));
+    REQUIRE_FALSE(put);
+    CHECK(put.error().message == path + ".part: File too large");
+  }
+  CHECK(text_of(path) == "before");
+  CHECK_FALSE(std::filesystem::exists(path + ".part"));
+  std::filesystem::create_directory(folder.path("taken"));
+  CHECK_FALSE(put_file(folder.path("taken"), "x"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("taken.part")));
+}
 
 TEST_CASE("A created file is empty", "[output]") {
   const TemporaryFolder folder;
