@@ -9,12 +9,14 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string_view>
 
+#include "host/figure/figure_layout.hpp"
 #include "host/figure/figure_script.hpp"
+#include "host/output/text_file.hpp"
 
 namespace penduline {
 namespace {
@@ -26,23 +28,52 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 constexpr int kNotFound = -1;
 
-/// Its exit status, or kNotFound.
-int run_gnuplot(std::FILE* input, std::FILE* complaints) {
+struct Drawing {
+  int status = kNotFound;  ///< gnuplot's exit status, or kNotFound
+  std::string picture{};
+};
+
+/// All that comes out of a pipe until its other end is closed.
+std::string all_of(int pipe) {
+  std::string text;
+  std::array<char, 65536> piece{};
+  for (;;) {
+    const ssize_t count = ::read(pipe, piece.data(), piece.size());
+    if (count > 0) {
+      text.append(piece.data(), static_cast<std::size_t>(count));
+    } else if (count == 0 || errno != EINTR) {
+      return text;
+    }
+  }
+}
+
+/// The picture comes through a pipe: gnuplot would not notice that a disk is full.
+Drawing run_gnuplot(std::FILE* input, std::FILE* complaints) {
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+    return {};
+  }
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, fileno(input), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, pipe[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&files, fileno(complaints), STDERR_FILENO);
   std::string name = "gnuplot";
-  std::array<char*, 2> arguments{name.data(), nullptr};
+  std::string without_user_settings = "-d";
+  std::array<char*, 3> arguments{name.data(), without_user_settings.data(), nullptr};
   pid_t child = 0;
   const int failed = posix_spawnp(&child, name.c_str(), &files, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
-  int status = 0;
-  if (failed != 0 || waitpid(child, &status, 0) != child) {
-    return kNotFound;
+  ::close(pipe[1]);
+  Drawing drawing;
+  if (failed == 0) {
+    drawing.picture = all_of(pipe[0]);
+    if (waitpid(child, &drawing.status, 0) != child) {
+      drawing.status = kNotFound;
+    }
   }
-  return status;
+  ::close(pipe[0]);
+  return drawing;
 }
 
 /// The last thing that gnuplot had to say.
@@ -73,31 +104,28 @@ tl::expected<void, Error> draw(const Figure& figure, const std::string& path) {
   if (!terminal) {
     return require_figure_name(path);
   }
-  const std::string unfinished = path + ".part";
-  const std::string script = script_of(figure, *terminal, unfinished);
+  if (auto room = require_room(figure); !room) {
+    return failure(fmt::format("{}: {}", path, room.error().message));
+  }
+  const std::string script = script_of(figure, *terminal);
   const File input(std::tmpfile());
   const File complaints(std::tmpfile());
   if (!input || !complaints ||
-      std::fwrite(script.data(), 1, script.size(), input.get()) != script.size()) {
+      std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
+      std::fflush(input.get()) != 0) {
     return failure(fmt::format("{}: no room for a temporary file", path));
   }
   std::rewind(input.get());
-  const int status = run_gnuplot(input.get(), complaints.get());
-  std::error_code error;
-  if (status == kNotFound) {
+  const Drawing drawing = run_gnuplot(input.get(), complaints.get());
+  if (drawing.status == kNotFound) {
     return failure(
         fmt::format("{}: found no gnuplot to draw it: apt-get install gnuplot-nox", path));
   }
-  if (status != 0) {
-    std::filesystem::remove(unfinished, error);
+  if (drawing.status != 0) {
     return failure(
         fmt::format("{}: gnuplot could not draw it: {}", path, last_line(complaints.get())));
   }
-  std::filesystem::rename(unfinished, path, error);
-  if (error) {
-    return failure(fmt::format("{}: cannot write: {}", path, error.message()));
-  }
-  return {};
+  return put_file(path, drawing.picture);
 }
 
 }  // namespace penduline

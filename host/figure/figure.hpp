@@ -67,8 +67,9 @@ struct Figure {
 /// Fails where figures cannot be drawn to a file of this name's ending.
 [[nodiscard]] tl::expected<void, Error> require_figure_name(const std::string& path);
 
-/// Draws it to `path` by its ending: .svg, .pdf or .png. Fails where the ending is another, gnuplot
-/// is not installed or the file cannot be written; then there is no file.
+/// Draws it to `path` by its ending: .svg, .pdf or .png. Fails where the ending is another, the
+/// size leaves panels one above the other no room, gnuplot is not installed or the file cannot be
+/// written; then what stood there before still does.
 [[nodiscard]] tl::expected<void, Error> draw(const Figure& figure, const std::string& path);
 
 }  // namespace penduline

@@ -11,20 +11,11 @@
 #include <iterator>
 #include <string_view>
 
+#include "host/figure/axis_tics.hpp"
+#include "host/figure/figure_layout.hpp"
+
 namespace penduline {
 namespace {
-
-FigureSize size_of(const Figure& figure) {
-  constexpr int kPanelWidthPx = 620;
-  constexpr int kPanelHeightPx = 480;
-  constexpr int kStackWidthPx = 900;
-  constexpr int kStackedHeightPx = 230;
-  const auto count = static_cast<int>(figure.panels.size());
-  return figure.size.value_or(
-      figure.stacked ? FigureSize{.width_px = kStackWidthPx,
-                                  .height_px = kStackedHeightPx * count + kPanelHeightPx / 6}
-                     : FigureSize{.width_px = kPanelWidthPx * count, .height_px = kPanelHeightPx});
-}
 
 std::string gnuplot_string(std::string_view text) {
   std::string result = "'";
@@ -40,7 +31,8 @@ void put_rows(std::string& script, const Curve& curve, bool in_space) {
     const double x = curve.x[i];
     const double y = curve.y[i];
     if (!std::isfinite(x) || !std::isfinite(y) || (in_space && !std::isfinite(curve.z[i]))) {
-      script += '\n';  // gnuplot lifts its pen
+      // Gnuplot lifts its pen; in space an empty line would begin another line of a grid.
+      script += in_space ? "NaN NaN NaN\n" : "\n";
     } else if (in_space) {
       fmt::format_to(out, "{} {} {}\n", x, y, curve.z[i]);
     } else if (curve.style == CurveStyle::kErrorBars) {
@@ -75,13 +67,6 @@ std::string_view columns_of(const Curve& curve) {
   return curve.style == CurveStyle::kBand ? " using 1:2:3" : "";
 }
 
-/// 1, 2 or 5 times a power of ten, no more than `value`.
-double round_step(double value) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  const double digit = value / power;
-  return power * (digit < 2 ? 1 : digit < 5 ? 2 : 5);
-}
-
 /// A box about paths in space, as deep as it is wide, whose floor is at the lowest tic.
 void put_box(std::string& script, const Panel& panel) {
   double extent = 0;
@@ -105,26 +90,43 @@ void put_box(std::string& script, const Panel& panel) {
                  gnuplot_string(panel.z_label));
 }
 
-void put_axes(std::string& script, const Panel& panel, bool stacked) {
-  fmt::format_to(std::back_inserter(script), "set title {}\nset xlabel {}\nset ylabel {}\n",
-                 gnuplot_string(panel.title), gnuplot_string(panel.x_label),
-                 gnuplot_string(panel.y_label));
-  const std::string_view above = stacked ? "at graph 1,1.03 right bottom horizontal samplen 2.5"
-                                         : "outside above right maxcols 1 samplen 2.5";
-  fmt::format_to(std::back_inserter(script), "set key {}\n",
-                 panel.key_above ? above : "inside right top vertical samplen 4");
-  script += panel.logarithmic ? "set logscale xy\nset format '%g'\n" : "";
+/// The key of a panel: as wide as the panel in a stack, whose layout has room for its rows.
+void put_key(std::string& script, const Figure& figure, const Panel& panel) {
+  if (!panel.key_above) {
+    script += "set key inside right top vertical samplen 4\n";
+  } else if (!figure.stacked) {
+    script += "set key outside above right maxcols 1 samplen 2.5\n";
+  } else {
+    fmt::format_to(std::back_inserter(script),
+                   "set key at graph 1,{} right bottom horizontal maxcols {} samplen 2.5\n",
+                   1 + StackLayout::kKeyGapPx / stack_layout(figure).panel_height_px,
+                   key_shape(panel, panel_width_px(figure)).columns);
+  }
+}
+
+void put_axes(std::string& script, const Figure& figure, const Panel& panel) {
+  const auto out = std::back_inserter(script);
+  fmt::format_to(out, "set title {}\nset xlabel {}\nset ylabel {}\n", gnuplot_string(panel.title),
+                 gnuplot_string(panel.x_label), gnuplot_string(panel.y_label));
+  put_key(script, figure, panel);
   if (panel.y_least) {
-    fmt::format_to(std::back_inserter(script), "set yrange [{}:]\n", *panel.y_least);
+    fmt::format_to(out, "set yrange [{}:]\n", *panel.y_least);
   }
   if (!panel.z_label.empty()) {
     put_box(script, panel);
     return;
   }
+  if (panel.logarithmic) {
+    script += "set logscale xy\nset format '%g'\n";
+  } else {
+    const auto step = x_step(panel, panel_width_px(figure));
+    fmt::format_to(out, "set format x '{}'\nset xtics {}\n", kXFormat,
+                   step ? fmt::format("{}", *step) : "autofreq");
+  }
   script += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
 }
 
-void put_panel(std::string& script, const Panel& panel, bool stacked) {
+void put_panel(std::string& script, const Figure& figure, const Panel& panel) {
   // Colours that the colour-blind tell apart (Okabe and Ito), grey and black.
   constexpr std::array<std::string_view, kBlack + 1> kColours = {
       "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999", "#000000"};
@@ -134,14 +136,16 @@ void put_panel(std::string& script, const Panel& panel, bool stacked) {
     put_rows(script, panel.curves[i], in_space);
     script += "END\n";
   }
-  put_axes(script, panel, stacked);
+  put_axes(script, figure, panel);
   script += in_space ? "splot " : "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
     fmt::format_to(std::back_inserter(script), "{}$curve{}{} with {} linecolor rgb '{}' {}",
                    i == 0 ? "" : ", ", i, columns_of(curve), style_of(curve),
                    kColours[curve.colour.value_or(i % kGrey)],
-                   curve.name.empty() ? "notitle" : "title " + gnuplot_string(curve.name));
+                   curve.name.empty()
+                       ? "notitle"
+                       : "title " + gnuplot_string(key_text(curve.name, panel_width_px(figure))));
   }
   script += '\n';
 }
@@ -150,12 +154,14 @@ void put_panel(std::string& script, const Panel& panel, bool stacked) {
 /// are.
 void put_stack(std::string& script, const Figure& figure) {
   const auto [width_px, height_px] = size_of(figure);
+  const StackLayout layout = stack_layout(figure);
   const auto across = [width = width_px](double pixels) { return pixels / width; };
   const auto up = [height = height_px](double pixels) { return pixels / height; };
   fmt::format_to(std::back_inserter(script),
                  "set multiplot layout {},1 title {} margins {},{},{},{} spacing 0,{}\n",
-                 figure.panels.size(), gnuplot_string(figure.title), across(96), 1 - across(25),
-                 up(52), 1 - up(figure.title.empty() ? 30 : 52), up(48));
+                 figure.panels.size(), gnuplot_string(figure.title), across(layout.left_px),
+                 1 - across(layout.right_px), up(layout.bottom_px), 1 - up(layout.top_px),
+                 up(layout.spacing_px));
   script += "set autoscale xfix\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     Panel panel = figure.panels[i];
@@ -166,7 +172,7 @@ void put_stack(std::string& script, const Figure& figure) {
     if (i + 1 < figure.panels.size()) {
       panel.x_label.clear();
     }
-    put_panel(script, panel, true);
+    put_panel(script, figure, panel);
   }
 }
 
@@ -189,10 +195,8 @@ std::optional<std::string> terminal_for(const Figure& figure, const std::string&
   return std::nullopt;
 }
 
-std::string script_of(const Figure& figure, const std::string& terminal,
-                      const std::string& output) {
-  std::string script = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
-                                   terminal, gnuplot_string(output));
+std::string script_of(const Figure& figure, const std::string& terminal) {
+  std::string script = fmt::format("set encoding utf8\nset terminal {} noenhanced\n", terminal);
   script += "set grid xtics ytics ztics linetype 1 linecolor rgb '#dddddd'\nset tics nomirror\n";
   if (figure.stacked) {
     put_stack(script, figure);
@@ -200,7 +204,7 @@ std::string script_of(const Figure& figure, const std::string& terminal,
     fmt::format_to(std::back_inserter(script), "set multiplot layout 1,{} title {}\n",
                    figure.panels.size(), gnuplot_string(figure.title));
     for (const Panel& panel : figure.panels) {
-      put_panel(script, panel, false);
+      put_panel(script, figure, panel);
     }
   }
   return script + "unset multiplot\n";

@@ -13,8 +13,7 @@ namespace penduline {
 [[nodiscard]] std::optional<std::string> terminal_for(const Figure& figure,
                                                       const std::string& path);
 
-/// The script that draws a figure with `terminal` into the file `output`.
-[[nodiscard]] std::string script_of(const Figure& figure, const std::string& terminal,
-                                    const std::string& output);
+/// The script that draws a figure with `terminal` to the standard output.
+[[nodiscard]] std::string script_of(const Figure& figure, const std::string& terminal);
 
 }  // namespace penduline

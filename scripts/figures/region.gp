@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Draws where two sensors can tell the tilt, the paper's layout: gnuplot -c region.gp PNG
+# Draws where two sensors can tell the tilt, the paper's layout: gnuplot -d -c region.gp PNG
 set terminal pngcairo size 760,640 font "sans,12"
 set output ARG1
 rad = pi / 180

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Draws a trajectory from above and its angles against time: gnuplot -c trajectory.gp ANGLES TRUTH PNG
+# Draws a trajectory from above and its angles against time: gnuplot -d -c trajectory.gp ANGLES TRUTH PNG
 angles = ARG1
 truth = ARG2
 set terminal pngcairo size 1200,520 font "sans,11" linewidth 1.4

@@ -177,6 +177,57 @@ class PlotTest(ProgramTest):
         self.assertIn("found 7, expected 6 or less",
                       run("plot", *7 * [table], "--what", "angles", "-o", "f.svg", status=2).stderr)
 
+    def test_the_users_own_gnuplot_settings_change_nothing(self):
+        table = self.estimates(self.swing())
+        svg, _ = self.draw(table, kind="top")
+        (self.folder / ".gnuplot").write_text('set datafile separator ","\nset xrange [0:1]\n')
+        subprocess.run([PROGRAM, "plot", table, "--what", "top", "-o", self.folder / "own.svg"],
+                       check=True, env={**os.environ, "HOME": str(self.folder)})
+        self.assertEqual((self.folder / "own.svg").read_text(), svg)
+
+    def test_a_full_disk_is_said_and_the_old_figure_stays(self):
+        table = self.write("angles.csv", "t_s,theta_rad\n0,0\n1,1\n2,0\n")
+        for ending in MAGIC:
+            figure = self.folder / f"old.{ending}"
+            figure.write_text("before")
+            # A file's largest size in blocks of 1 KB: the script has room, the figure has not.
+            done = subprocess.run(
+                ["bash", "-c", 'ulimit -f 2; trap "" XFSZ; exec "$@"', "-", PROGRAM, "plot", table,
+                 "--what", "angles", "-o", figure],
+                capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(f"old.{ending}.part: File too large", done.stderr)
+            self.assertEqual(figure.read_text(), "before")
+        self.assertFalse(list(self.folder.glob("*.part")))
+
+    def test_names_over_panels_are_clear_of_titles_and_numbers(self):
+        recording = self.swing()
+        lengths = (1, 4, 10, 20, 50, 150)
+        tables = [self.estimates(recording, "gn", f"a_very_long_name{length * '_'}.csv")
+                  for length in lengths]
+        for kind in ("angles", "residuals", "spectrum"):
+            svg, _ = self.draw(*tables, kind=kind)
+            placed = svg_curves.placed_texts(svg)
+            title = next(y for _, y, text in placed if text == KINDS[kind][0])
+            height = int(re.search(r'height="(\d+)"', svg)[1])
+            keys = sorted(y for _, y, text in placed if "a_very_long_name" in text)
+            # What stands left of the axes is in no name's way.
+            others = [y for x, y, text in placed if x > 95 and "a_very_long_name" not in text]
+            self.assertEqual(len(keys), 12)  # none is left out, however long
+            self.assertGreater(keys[0], title + 12)
+            self.assertLess(keys[-1], height)
+            rows = sorted(set(keys))
+            for above, below in zip(rows, rows[1:]):
+                self.assertGreater(below - above, 12)
+            for row in rows:
+                self.assertTrue(all(abs(row - y) >= 10 for y in others), (kind, row, others))
+
+    def test_late_times_are_readable(self):
+        rows = "".join(f"{1760000000 + i / 10},{0.1 * math.sin(i / 3)}\n" for i in range(20))
+        svg, _ = self.draw(self.write("late.csv", "t_s,theta_rad\n" + rows))
+        numbers = [text for text in svg_curves.texts(svg) if text.startswith("176")]
+        self.assertEqual(numbers, ["1760000000", "1760000000.5", "1760000001", "1760000001.5"])
+
     def test_an_input_is_never_overwritten(self):
         table = self.write("table.svg", "t_s,theta_rad\n0,0\n1,1\n")
         run("plot", table, "--what", "angles", "-o", table, status=1)
@@ -207,8 +258,10 @@ class PlotTest(ProgramTest):
 
     def test_the_papers_figures_are_drawn_of_a_recording_of_ones_own(self):
         figures = self.folder / "figures"
+        (self.folder / ".gnuplot").write_text("exit status 1\n")  # not read
         subprocess.run([ROOT / "scripts/paper_figures", figures, self.swing(), RIG], check=True,
-                       capture_output=True, env={**os.environ, "PENDULINE": str(PROGRAM)})
+                       capture_output=True, env={**os.environ, "PENDULINE": str(PROGRAM),
+                                                 "HOME": str(self.folder)})
         names = {path.name for path in pathlib.Path(figures).iterdir()}
         self.assertTrue({"own_angles.svg", "own_xyz.svg", "own_top.svg", "own_3d.svg",
                          "figure_12.svg"} <= names, names)

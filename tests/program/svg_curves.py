@@ -12,6 +12,14 @@ def texts(svg):
             for text in re.findall(r"<text>(.*?)</text>", svg, re.DOTALL)]
 
 
+def placed_texts(svg):
+    """(x, y, text) of all that stands written upright, in pixels."""
+    pattern = (rf'<g transform="translate\(({NUMBER}),({NUMBER})\)" [^>]*>\s*<text>(.*?)</text>')
+    found = [(float(x), float(y), re.sub(r"</?tspan[^>]*>", "", text).strip())
+             for x, y, text in re.findall(pattern, svg, re.DOTALL)]
+    return [place for place in found if place[2]]
+
+
 def ticks(part, anchor, axis):
     """(pixel, value) of the ticks of one axis, at the marks themselves."""
     pattern = (rf"<path [^>]*d='M({NUMBER}),({NUMBER}) [^']*'/>\s*"
