@@ -30,6 +30,10 @@ struct EstimateSeries {
   std::vector<double> flags{};
 
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
+  /// Whether a column stands for more than its place: theta2_rad of a planar series does not.
+  [[nodiscard]] bool measures(std::vector<double> EstimateSeries::*column) const {
+    return !planar || column != &EstimateSeries::theta2_rad;
+  }
   /// Whether a row has angles.
   [[nodiscard]] bool answers(std::size_t row) const;
   /// Whether a row has angles and nothing against them.

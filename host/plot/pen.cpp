@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace penduline {
 namespace {
 
 bool known(const EstimateSeries& series, std::size_t row) {
-  return series.answers(row) && std::isfinite(series.x_m[row]);
+  return series.answers(row) && std::isfinite(series.x_m[row]) && std::isfinite(series.y_m[row]) &&
+         std::isfinite(series.z_m[row]);
 }
 
 /// Puts first, least, largest and last of the rows `begin` to `end` into the path, each once.
@@ -37,14 +39,18 @@ PenPath pen_over(const std::vector<double>& x, const std::vector<double>& y,
   const auto column_of = [&](std::size_t row) {
     return width > 0 ? std::floor((x[row] - x.front()) / width) : 0;
   };
+  bool lifted = false;
   for (std::size_t begin = 0; begin < x.size();) {
+    lifted = lifted || !joined[begin];
     if (!std::isfinite(y[begin])) {
+      lifted = true;
       ++begin;
       continue;
     }
-    if (!joined[begin] && !path.empty()) {
+    if (lifted && !path.empty()) {
       path.emplace_back();
     }
+    lifted = false;
     std::size_t end = begin + 1;
     while (end < x.size() && joined[end] && std::isfinite(y[end]) &&
            column_of(end) == column_of(begin)) {
@@ -52,6 +58,24 @@ PenPath pen_over(const std::vector<double>& x, const std::vector<double>& y,
     }
     put_column(path, y, begin, end);
     begin = end;
+  }
+  return path;
+}
+
+PenPath pen_through(const std::vector<double>& values, const std::vector<bool>& joined) {
+  PenPath path;
+  bool lifted = false;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    lifted = lifted || !joined[row];
+    if (!std::isfinite(values[row])) {
+      lifted = true;
+      continue;
+    }
+    if (lifted && !path.empty()) {
+      path.emplace_back();
+    }
+    lifted = false;
+    path.emplace_back(row);
   }
   return path;
 }
@@ -66,15 +90,18 @@ PenPath pen_in_space(const EstimateSeries& series) {
   }
   const std::vector<bool> joined = joined_rows(series);
   PenPath path;
+  bool lifted = true;
   for (std::size_t row = 0; row < series.size(); ++row) {
+    lifted = lifted || !joined[row];
     if (!known(series, row)) {
+      lifted = true;
       continue;
     }
-    if (!joined[row] && !path.empty()) {
+    if (lifted && !path.empty()) {
       path.emplace_back();
     }
-    const bool follows = joined[row] && !path.empty() && path.back();
-    const bool goes_on = row + 1 < series.size() && joined[row + 1];
+    const bool follows = !std::exchange(lifted, false);
+    const bool goes_on = row + 1 < series.size() && joined[row + 1] && known(series, row + 1);
     if (follows && goes_on) {
       const std::size_t before = *path.back();
       const double moved_m =
@@ -89,16 +116,16 @@ PenPath pen_in_space(const EstimateSeries& series) {
   return path;
 }
 
-PenPath lone_rows(const EstimateSeries& series) {
-  const std::vector<bool> joined = joined_rows(series);
-  PenPath path;
-  for (std::size_t row = 0; row < series.size(); ++row) {
-    const bool goes_on = row + 1 < series.size() && joined[row + 1];
-    if (series.answers(row) && !joined[row] && !goes_on) {
-      path.emplace_back(row);
+PenPath lone_rows(const PenPath& path) {
+  PenPath alone;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool follows = i > 0 && path[i - 1];
+    const bool goes_on = i + 1 < path.size() && path[i + 1];
+    if (path[i] && !follows && !goes_on) {
+      alone.push_back(path[i]);
     }
   }
-  return path;
+  return alone;
 }
 
 std::vector<double> along(const PenPath& path, const std::vector<double>& values, double unit) {

@@ -25,19 +25,29 @@ Panel phase_panel(const std::vector<EstimateSeries>& inputs, const AngleAndRate&
               .key_above = true};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const EstimateSeries& series = inputs[i];
+    if (!series.measures(columns.angle_rad)) {
+      continue;
+    }
     const bool told = any_known(series.*columns.rate_rad_s);
     const std::vector<double> rates =
         told ? series.*columns.rate_rad_s : central_differences(series, series.*columns.angle_rad);
+    const auto put = [&](const std::string& name, CurveStyle style, const PenPath& path) {
+      panel.curves.push_back({.name = name,
+                              .style = style,
+                              .x = along(path, series.*columns.angle_rad, kDegree),
+                              .y = along(path, rates, kDegree),
+                              .colour = i,
+                              .dash = i,
+                              .line_width = kThin});
+    };
     // All rows: over the angle, which goes to and fro, there are no columns to thin out.
-    const PenPath path = pen_over(series.t_s, rates, joined_rows(series), series.size());
+    const PenPath path = pen_through(rates, joined_rows(series));
     const std::string origin = told ? "the estimator's rate" : "rate by differences";
-    panel.curves.push_back(
-        {.name = inputs.size() == 1 ? origin : fmt::format("{}, {}", series.name, origin),
-         .x = along(path, series.*columns.angle_rad, kDegree),
-         .y = along(path, rates, kDegree),
-         .colour = i,
-         .dash = i,
-         .line_width = kThin});
+    put(inputs.size() == 1 ? origin : fmt::format("{}, {}", series.name, origin), CurveStyle::kLine,
+        path);
+    if (const PenPath alone = lone_rows(path); !alone.empty()) {
+      put("", CurveStyle::kPoints, alone);
+    }
   }
   return panel;
 }

@@ -20,8 +20,8 @@ Curve residual_curve(const std::string& name, const std::vector<double>& t_s,
   const PenPath path = pen_over(t_s, values, std::vector<bool>(t_s.size(), true));
   const double rms_deg =
       std::sqrt(residual_rad.squaredNorm() / static_cast<double>(residual_rad.size())) / kDegree;
-  return {.name = fmt::format("{}experiment less simulation, RMS {:.2g} deg",
-                              name.empty() ? "" : name + ": ", rms_deg),
+  return {.name = fmt::format("{} RMS {:.2g} deg",
+                              name.empty() ? "experiment less simulation," : name + ":", rms_deg),
           .style = CurveStyle::kPoints,
           .x = along(path, t_s),
           .y = along(path, values, kDegree)};

@@ -38,13 +38,20 @@ tl::expected<Figure, Error> space_plot(const std::vector<EstimateSeries>& inputs
   }
   std::vector<Curve> paths;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto put = [&](const std::string& name, CurveStyle style, const PenPath& path) {
+      paths.push_back({.name = name,
+                       .style = style,
+                       .x = along(path, inputs[i].x_m, kMillimetre),
+                       .y = along(path, inputs[i].y_m, kMillimetre),
+                       .z = along(path, inputs[i].z_m, kMillimetre),
+                       .colour = i,
+                       .line_width = kThin});
+    };
     const PenPath path = pen_in_space(inputs[i]);
-    paths.push_back({.name = inputs.size() == 1 ? "path" : inputs[i].name,
-                     .x = along(path, inputs[i].x_m, kMillimetre),
-                     .y = along(path, inputs[i].y_m, kMillimetre),
-                     .z = along(path, inputs[i].z_m, kMillimetre),
-                     .colour = i,
-                     .line_width = kThin});
+    put(inputs.size() == 1 ? "path" : inputs[i].name, CurveStyle::kLine, path);
+    if (const PenPath alone = lone_rows(path); !alone.empty()) {
+      put("", CurveStyle::kPoints, alone);
+    }
   }
   Panel panel{.x_label = "x / mm", .y_label = "y / mm", .z_label = "z / mm", .key_above = true};
   const double below_mm = floor_mm(paths);

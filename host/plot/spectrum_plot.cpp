@@ -40,6 +40,9 @@ tl::expected<Panel, Error> spectrum_panel(const std::vector<EstimateSeries>& inp
               .key_above = true};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const EstimateSeries& series = inputs[i];
+    if (!series.measures(values)) {
+      continue;
+    }
     const RowSpan rows = longest_span(joined_rows(series));
     const std::vector<double> span(
         (series.*values).begin() + static_cast<std::ptrdiff_t>(rows.begin),
@@ -52,6 +55,12 @@ tl::expected<Panel, Error> spectrum_panel(const std::vector<EstimateSeries>& inp
       return failure(
           fmt::format("{}: found {} rows in succession without a dropout, expected 8 or more",
                       series.name, span.size()));
+    }
+    if (const auto [least, most] = std::ranges::minmax(span); least == most) {
+      return failure(fmt::format(
+          "{}: found {} rows of one {}, {:.4g} deg, expected a swing: what rests has no "
+          "spectrum",
+          series.name, span.size(), angle, least / kDegree));
     }
     // What is weaker is no figure of a pendulum but of numbers' last digits.
     constexpr double kWeakest = 2e-6;

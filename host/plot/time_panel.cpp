@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/plot/pen.hpp"
 
@@ -40,8 +41,12 @@ Panel time_panel(const std::vector<EstimateSeries>& inputs, const TimeColumn& co
   Panel panel{.x_label = "t / s",
               .y_label = fmt::format("{} / {}", column.name, column.unit),
               .key_above = true};
+  std::string flagged_name = "flagged";  // once for all
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const EstimateSeries& series = inputs[i];
+    if (!series.measures(column.values)) {
+      continue;
+    }
     const std::vector<double>& values = series.*column.values;
     const auto put = [&](const std::string& name, CurveStyle style, const PenPath& path) {
       panel.curves.push_back({.name = name,
@@ -60,11 +65,11 @@ Panel time_panel(const std::vector<EstimateSeries>& inputs, const TimeColumn& co
       panel.curves.back().sigma_y = along(path, sigma, column.unit_size);
     }
     put(key_name(inputs, i), CurveStyle::kLine, path);
-    if (const PenPath alone = lone_rows(series); !alone.empty()) {
+    if (const PenPath alone = lone_rows(path); !alone.empty()) {
       put("", CurveStyle::kPoints, alone);
     }
     if (const PenPath flagged = flagged_rows(series); !flagged.empty()) {
-      put("flagged", CurveStyle::kMarks, flagged);
+      put(std::exchange(flagged_name, ""), CurveStyle::kMarks, flagged);
       panel.curves.back().colour = kBlack;
     }
   }

@@ -84,12 +84,19 @@ tl::expected<Figure, Error> top_plot(const std::vector<EstimateSeries>& inputs,
   }
   Panel panel{.x_label = "x / mm", .y_label = "y / mm", .equal_scales = true, .key_above = true};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto put = [&](const std::string& name, CurveStyle style, const PenPath& path) {
+      panel.curves.push_back({.name = name,
+                              .style = style,
+                              .x = along(path, inputs[i].x_m, kMillimetre),
+                              .y = along(path, inputs[i].y_m, kMillimetre),
+                              .colour = i,
+                              .line_width = kThin});
+    };
     const PenPath path = pen_in_space(inputs[i]);
-    panel.curves.push_back({.name = inputs.size() == 1 ? "path" : inputs[i].name,
-                            .x = along(path, inputs[i].x_m, kMillimetre),
-                            .y = along(path, inputs[i].y_m, kMillimetre),
-                            .colour = i,
-                            .line_width = kThin});
+    put(inputs.size() == 1 ? "path" : inputs[i].name, CurveStyle::kLine, path);
+    if (const PenPath alone = lone_rows(path); !alone.empty()) {
+      put("", CurveStyle::kPoints, alone);
+    }
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     put_ellipses(panel, inputs, i, settings);

@@ -54,6 +54,20 @@ TEST_CASE("A pen is lifted at each break and over what is not finite") {
   CHECK(y[5] == 5);
 }
 
+TEST_CASE("A break at a row that is not finite lifts the pen for the next") {
+  // As differences have it: the row after a break has none, and the one behind is joined to it.
+  const std::vector<double> y{1, 2, kNone, 4, 5};
+  const std::vector<bool> joined{false, true, false, true, true};
+  CHECK(rows_of(pen_over({0, 1, 2, 3, 4}, y, joined)) == std::vector<int>{0, 1, -1, 3, 4});
+  CHECK(rows_of(pen_through(y, joined)) == std::vector<int>{0, 1, -1, 3, 4});
+  CHECK(rows_of(pen_through({kNone, 1, kNone}, {false, true, true})) == std::vector<int>{1});
+}
+
+TEST_CASE("A path through all rows is not thinned") {
+  const std::vector<double> values(10'000, 1);
+  CHECK(pen_through(values, std::vector<bool>(values.size(), true)).size() == 10'000);
+}
+
 TEST_CASE("A thinned path keeps peaks, both ends and breaks") {
   std::vector<double> x(100'000);
   std::vector<double> y(x.size());
@@ -81,6 +95,14 @@ TEST_CASE("A path in space leaves out what an eye does not see, but no end of a 
   CHECK(rows_of(path) == std::vector<int>{0, 3, 4, 5, -1, 7, 8});
 }
 
+TEST_CASE("A path in space is broken where there are angles but no position") {
+  EstimateSeries series = path_along_x({0, 0.5, 0.6, 0.6001, 1});
+  series.x_m[1] = kNone;
+  series.z_m[3] = kNone;
+  CHECK(rows_of(pen_in_space(series)) == std::vector<int>{0, -1, 2, -1, 4});
+}
+
 TEST_CASE("Rows without neighbours are told apart") {
-  CHECK(rows_of(lone_rows(path_along_x({0, kNone, 1, kNone, 2, 3}))) == std::vector<int>{0, 2});
+  CHECK(rows_of(lone_rows({0, std::nullopt, 2, 3, std::nullopt, 5})) == std::vector<int>{0, 5});
+  CHECK(lone_rows({}).empty());
 }

@@ -170,6 +170,87 @@ TEST_CASE("A spectrum names its peak and, of a broken series, the part that it i
   CHECK(part.curves[0].x.front() >= 2 / 6.0);
 }
 
+TEST_CASE("A phase portrait keeps every row, however long a pause was") {
+  EstimateSeries series = ellipse_swing();
+  for (std::size_t i = 100; i < series.size(); ++i) {
+    series.t_s[i] += 3600;
+  }
+  const Curve path = plot("phase", {series}).panels[0].curves[0];
+  CHECK(path.x.size() == 201);
+  CHECK(std::isnan(path.x[100]));
+}
+
+TEST_CASE("A phase portrait by differences draws no chord over a dropout") {
+  EstimateSeries series = ellipse_swing();
+  std::ranges::fill(series.omega1_rad_s, NAN);
+  series.flags[100] = flag::kDropout;
+  const Curve path = plot("phase", {series}).panels[0].curves[0];
+  // Rows 1 to 98 and 101 to 198 have rates.
+  REQUIRE(path.x.size() == 98 + 1 + 98);
+  CHECK(std::isnan(path.x[98]));
+}
+
+TEST_CASE("A row between two breaks is a point from above, in space and in the phase portrait") {
+  EstimateSeries series = ellipse_swing();
+  series.flags[100] = series.flags[101] = flag::kDropout;
+  const Curve above = curve_of(plot("top", {series}).panels[0], CurveStyle::kPoints);
+  CHECK(above.name.empty());
+  CHECK(above.x == std::vector<double>{series.x_m[100] / 1e-3});
+  CHECK(above.colour == std::size_t{0});
+  const Panel space = plot("3d", {series}).panels[0];
+  CHECK(std::ranges::count(space.curves, CurveStyle::kPoints, &Curve::style) == 2);  // and shadow
+  CHECK(space.curves.back().z == std::vector<double>{series.z_m[100] / 1e-3});
+  const Curve phase = curve_of(plot("phase", {series}).panels[1], CurveStyle::kPoints);
+  CHECK(phase.y.front() == Approx(0.25 * 180 / std::numbers::pi));
+  CHECK(phase.y.size() == 1);
+}
+
+TEST_CASE("A planar series beside a spatial one has no theta2 to show") {
+  EstimateSeries planar = ellipse_swing();
+  planar.planar = true;
+  planar.name = "planar.csv";
+  std::ranges::fill(planar.theta2_rad, 0);
+  std::ranges::fill(planar.sigma2_rad, NAN);
+  std::ranges::fill(planar.omega2_rad_s, NAN);
+  for (const char* kind : {"angles", "phase", "spectrum"}) {
+    INFO(kind);
+    const Figure figure = plot(kind, {planar, ellipse_swing()});
+    const auto named = [](const Panel& panel, std::string_view name) {
+      return std::ranges::count_if(
+          panel.curves, [&](const Curve& curve) { return curve.name.starts_with(name); });
+    };
+    CHECK(named(figure.panels[0], "planar.csv") == 1);
+    CHECK(named(figure.panels[1], "planar.csv") == 0);
+    CHECK(named(figure.panels[1], "swing.csv") == 1);
+    CHECK(figure.panels[1].curves.back().colour == std::size_t{1});
+    CHECK(std::ranges::all_of(figure.panels[1].curves,
+                              [](const Curve& curve) { return curve.colour == 1; }));
+  }
+}
+
+TEST_CASE("A spectrum of what rests is refused") {
+  EstimateSeries still = ellipse_swing();
+  std::ranges::fill(still.theta2_rad, 0);
+  const auto figure = spectrum_plot({still}, {});
+  REQUIRE_FALSE(figure);
+  CHECK(figure.error().message ==
+        "swing.csv: found 200 rows of one theta2, 0 deg, expected a swing: what rests has no "
+        "spectrum");
+}
+
+TEST_CASE("Flagged rows of several series stand in the key once") {
+  EstimateSeries series = ellipse_swing();
+  series.flags[150] = flag::kOutOfRange;
+  const Panel panel = plot("angles", {series, series}).panels[0];
+  CHECK(std::ranges::count(panel.curves, "flagged", &Curve::name) == 1);
+  CHECK(std::ranges::count(panel.curves, CurveStyle::kMarks, &Curve::style) == 2);
+}
+
+TEST_CASE("Residuals of several series are called by name and RMS alone") {
+  const Panel panel = plot("residuals", {ellipse_swing(), ellipse_swing()}).panels[0];
+  CHECK(panel.curves[0].name.starts_with("swing.csv: RMS 0."));
+}
+
 TEST_CASE("Residuals are measured less simulated, with their RMS") {
   EstimateSeries series = ellipse_swing();
   const Figure figure = plot("residuals", {series});
