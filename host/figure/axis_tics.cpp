@@ -16,8 +16,10 @@ constexpr double kMostSteps = 10;  // gnuplot's
 bool have_room(double least, double most, double step, double width_px) {
   constexpr std::size_t kBetween = 2;
   std::size_t letters = 0;
-  for (double tic = std::ceil(least / step); tic <= std::floor(most / step); ++tic) {
-    letters = std::max(letters, fmt::formatted_size("{:.12g}", tic * step) + kBetween);
+  const double first = std::ceil(least / step);
+  const int more = static_cast<int>(std::floor(most / step) - first);
+  for (int i = 0; i <= more; ++i) {
+    letters = std::max(letters, fmt::formatted_size("{:.12g}", (first + i) * step) + kBetween);
   }
   return static_cast<double>(letters) * kLetterPx <= width_px * step / (most - least);
 }
