@@ -69,8 +69,9 @@ tl::expected<std::unique_ptr<Outputs>, Error> open_distinct_outputs(
 RecordingSwitch recording_of(const EstimationRun& run) {
   RecordingOptions asked = run.recording;
   asked.path = run.listener ? web_recording_path(run.web, asked) : asked.path;
-  return RecordingSwitch([asked, live = run.live, paced = run.paced](const RecordingHeader& now) {
-    return start_recorder(asked, now, live, live && !paced);
+  return RecordingSwitch([asked, live = run.live, paced = run.paced](
+                             const RecordingHeader& now, const RecordingSwitch::Warn& warn) {
+    return start_recorder(asked, now, live, live && !paced, warn);
   });
 }
 

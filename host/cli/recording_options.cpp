@@ -107,12 +107,17 @@ std::optional<std::uint64_t> parse_size_bytes(std::string_view text) {
 
 tl::expected<std::unique_ptr<Recorder>, Error> start_recorder(const RecordingOptions& options,
                                                               const RecordingHeader& header,
-                                                              bool live, bool board) {
+                                                              bool live, bool board,
+                                                              RecordingSwitch::Warn warn) {
   using WhenFull = RecordingQueue::WhenFull;
   RecorderSettings settings{.series = {.path = options.path,
                                        .limits = options.limits,
                                        .tell_start = board,
-                                       .warn = log_warning},
+                                       .warn =
+                                           [warn = std::move(warn)](const std::string& text) {
+                                             log_warning(text);
+                                             warn(text);
+                                           }},
                             .sync_period = options.sync_period,
                             .when_full = live ? WhenFull::kLose : WhenFull::kWait};
   auto recorder = Recorder::start(std::move(settings), header);

@@ -13,6 +13,7 @@
 #include "hal/error.hpp"
 #include "hal/replay/recording_format.hpp"
 #include "host/recorder/recorder.hpp"
+#include "host/recorder/recording_switch.hpp"
 
 namespace penduline {
 
@@ -33,8 +34,10 @@ void add_recording_options(CLI::App& command, RecordingOptions& options);
 [[nodiscard]] std::optional<std::uint64_t> parse_size_bytes(std::string_view text);
 
 /// Begins the recording that `options` ask for; says its name where that is not theirs. A live run
-/// does not wait for the disk; of a board the recording tells when it began.
+/// does not wait for the disk; of a board the recording tells when it began. What it warns of is
+/// logged, and told to `warn`.
 [[nodiscard]] tl::expected<std::unique_ptr<Recorder>, Error> start_recorder(
-    const RecordingOptions& options, const RecordingHeader& header, bool live, bool board);
+    const RecordingOptions& options, const RecordingHeader& header, bool live, bool board,
+    RecordingSwitch::Warn warn);
 
 }  // namespace penduline

@@ -26,7 +26,7 @@ tl::expected<void, Error> RecordingSwitch::start() {
     }
     header = *header_;
   }
-  auto recorder = begin_(header);
+  auto recorder = begin_(header, [this](const std::string& text) { warn(text); });
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
@@ -73,6 +73,18 @@ RecordingSwitch::State RecordingSwitch::state() const {
 std::uint64_t RecordingSwitch::lost() const {
   const std::lock_guard lock(mutex_);
   return lost_;
+}
+
+void RecordingSwitch::tell_warnings_to(Warn warn) {
+  const std::lock_guard lock(warning_);
+  told_ = std::move(warn);
+}
+
+void RecordingSwitch::warn(const std::string& text) {
+  const std::lock_guard lock(warning_);
+  if (told_) {
+    told_(text);
+  }
 }
 
 tl::expected<void, Error> RecordingSwitch::record(const Sample& sample) {

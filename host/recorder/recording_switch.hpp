@@ -25,9 +25,11 @@ inline constexpr const char* kNoSamplesYet = "There are no samples yet: the boar
 /// that wait themselves (RecordingQueue::WhenFull::kWait).
 class RecordingSwitch {
  public:
-  /// Begins a recording of a source of which the header tells.
-  using Begin =
-      std::function<tl::expected<std::unique_ptr<Recorder>, Error>(const RecordingHeader&)>;
+  /// Told, in words, what goes wrong and stops nothing (SeriesSettings::warn): of any thread.
+  using Warn = std::function<void(const std::string&)>;
+  /// Begins a recording of a source of which the header tells, with that to be told its warnings.
+  using Begin = std::function<tl::expected<std::unique_ptr<Recorder>, Error>(const RecordingHeader&,
+                                                                             const Warn&)>;
 
   explicit RecordingSwitch(Begin begin) : begin_(std::move(begin)) {}
 
@@ -48,13 +50,21 @@ class RecordingSwitch {
   /// Samples that recordings which have ended did not get.
   [[nodiscard]] std::uint64_t lost() const;
 
+  /// From now on recordings' warnings go to `warn`, and when this returns no more to who was told
+  /// them before. None: to nobody.
+  void tell_warnings_to(Warn warn);
+
   /// For the session's thread: what a Recorder takes, as long as there is one.
   tl::expected<void, Error> record(const Sample& sample);
   /// `now` is the source's header behind the event.
   void note(const RecordingEvent& event, const RecordingHeader& now);
 
  private:
+  void warn(const std::string& text);
+
   Begin begin_;
+  std::mutex warning_;   ///< held while one is told
+  Warn told_;            ///< none: nobody is
   std::mutex changing_;  ///< one change at a time, which may take long
   mutable std::mutex mutex_;
   std::optional<RecordingHeader> header_;  ///< none: there is no source yet

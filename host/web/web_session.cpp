@@ -39,10 +39,13 @@ WebSession::WebSession(std::unique_ptr<WebListener> listener, const WebSettings&
       may_record_(settings.may_record),
       say_(settings.say),
       page_(feed_, settings.subject, [this] { return recording_state(); }) {
+  recording_.tell_warnings_to([this](const std::string& text) { tell("warning", text); });
   server_.emplace(std::move(listener), WebGuard(settings.name, settings.token), page_, actions());
 }
 
-WebSession::~WebSession() = default;
+WebSession::~WebSession() {
+  recording_.tell_warnings_to({});
+}
 
 void WebSession::join(SessionParts& parts) {
   feed_.tell(parts.source.header());
@@ -145,7 +148,8 @@ tl::expected<void, Error> WebSession::stop_recording() {
     return tl::unexpected(report.error());
   }
   say_(report->text());
-  tell("recording", "Recording has ended: " + report->text() + ".");
+  const std::string reason = report->error ? "; " + report->error->message : "";
+  tell("recording", "Recording has ended: " + report->text() + reason + ".");
   if (report->error) {
     return tl::unexpected(*report->error);
   }

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "hal/replay/recording_reader.hpp"
 #include "tests/unit/host/headers.hpp"
@@ -21,9 +22,8 @@ using namespace penduline;
 using namespace penduline::test;
 
 RecordingSwitch::Begin begin_in(const TemporaryFolder& folder) {
-  return [&folder](const RecordingHeader& header) {
-    return Recorder::start(
-        {.series = {.path = folder.path("rec.csv"), .warn = [](const std::string&) {}}}, header);
+  return [&folder](const RecordingHeader& header, const RecordingSwitch::Warn& warn) {
+    return Recorder::start({.series = {.path = folder.path("rec.csv"), .warn = warn}}, header);
   };
 }
 
@@ -108,6 +108,24 @@ TEST_CASE("Marks stand in the recording, in their place", "[threads]") {
   REQUIRE(mark != std::string::npos);
   CHECK(text.find("\n1,") < mark);
   CHECK(text.find("\n2,") > mark);
+}
+
+TEST_CASE("A recording's warnings go to who is told them now", "[threads]") {
+  const TemporaryFolder folder;
+  RecordingSwitch::Warn warn;
+  RecordingSwitch recording([&](const RecordingHeader& header, const RecordingSwitch::Warn& given) {
+    warn = given;
+    return begin_in(folder)(header, given);
+  });
+  recording.join(header_of("pico", 20, 1));
+  REQUIRE(recording.start());
+  std::vector<std::string> told;
+  warn("too early");
+  recording.tell_warnings_to([&](const std::string& text) { told.push_back(text); });
+  warn("the disk is full");
+  recording.tell_warnings_to({});
+  warn("too late");
+  CHECK(told == std::vector<std::string>{"the disk is full"});
 }
 
 TEST_CASE("Another thread starts and stops while samples come: none is lost in between",
