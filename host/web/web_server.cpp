@@ -31,14 +31,19 @@ constexpr std::chrono::milliseconds kRefusedWait{100};
 /// How much less urgent than the session's the server's thread is, as of nice(1).
 constexpr int kNiceness = 10;
 
-/// An address of this machine that others know, of the family of `any`; `any` where there is none.
+/// An address of this machine that others know, of the family of `any`; where there is none, as
+/// without a network, its loopback.
 asio::ip::address known_address(const asio::ip::address& any) {
+  asio::ip::address loopback = asio::ip::address_v4::loopback();
+  if (any.is_v6()) {
+    loopback = asio::ip::address_v6::loopback();
+  }
   ifaddrs* all = nullptr;
   if (::getifaddrs(&all) != 0) {
-    return any;
+    return loopback;
   }
-  asio::ip::address found = any;
-  for (const ifaddrs* each = all; each != nullptr && found == any; each = each->ifa_next) {
+  asio::ip::address found = loopback;
+  for (const ifaddrs* each = all; each != nullptr && found == loopback; each = each->ifa_next) {
     if (each->ifa_addr == nullptr || (each->ifa_flags & IFF_UP) == 0) {
       continue;
     }
