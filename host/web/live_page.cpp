@@ -60,7 +60,9 @@ void LivePage::take_header(const RecordingHeader& header) {
   keep_rows();
   subject_.header = header;
   rows_.set_acquisition(header.acquisition);
-  keeper_ = PeakKeeper(bin_s(header.acquisition), subject_.rig.rig.layout.count);
+  const double bin = bin_s(header.acquisition);
+  keeper_ = PeakKeeper(bin, subject_.rig.rig.layout.count);
+  longest_step_s_ = bin > 0 ? kLongestStep / header.acquisition.rate_hz : kNoEnd;
   state_.connected = true;
   state_changed_ = true;
 }
@@ -68,7 +70,7 @@ void LivePage::take_header(const RecordingHeader& header) {
 void LivePage::take_samples() {
   for (const LiveSample& live : news_.samples) {
     if (const auto row = rows_.next(live)) {
-      keeper_.add(*row, kept_);
+      take_row(*row);
     }
     note_flags(state_.flag_latest_s, live.estimate.flags,
                rows_.time().at_board_s(live.sample.t_us));
@@ -81,6 +83,15 @@ void LivePage::take_samples() {
     }
     state_.sample = news_.samples.back().sample;
   }
+}
+
+void LivePage::take_row(const LiveRow& row) {
+  // Where rows are thinned, it may be farther from one to the next than over a dropout.
+  if (last_s_ && row.t_s - *last_s_ > longest_step_s_) {
+    keeper_.add({.t_s = (*last_s_ + row.t_s) / 2}, kept_);
+  }
+  last_s_ = row.t_s;
+  keeper_.add(row, kept_);
 }
 
 void LivePage::keep_rows() {
@@ -141,7 +152,10 @@ void LivePage::tell_state(Clock::time_point now) {
 }
 
 std::string LivePage::greeting() const {
-  std::string text = session_text_ + event_text("points", points_.json(0));
+  std::string text = session_text_;
+  for (const std::string& slice : points_.slices()) {
+    text += event_text("points", slice);
+  }
   for (const std::string& note : notes_) {
     text += note;
   }

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,9 @@ class LivePage {
   /// Up to this rate every sample is shown; above it those of PeakKeeper, in bins of `kBinS`.
   static constexpr double kMostHz = 100;
   static constexpr double kBinS = 0.02;
+  /// Of samples' periods; more is a dropout.
+  static constexpr double kLongestStep = 3.5;
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
   /// `recording` is asked at each turn.
   LivePage(LiveFeed& feed, LiveSubject subject, std::function<RecordingState()> recording);
@@ -33,7 +38,8 @@ class LivePage {
   /// Takes what has come and makes events of it; to be called some 20 times a second.
   void turn(Clock::time_point now);
 
-  /// What a new viewer gets first: session, the last minute's points, the last notes, state.
+  /// What a new viewer gets first: session, the last minute's points in slices that even a slow
+  /// network brings one by one, the last notes, state.
   [[nodiscard]] std::string greeting() const;
   /// What a viewer gets that has missed events: session and state.
   [[nodiscard]] std::string resumption() const;
@@ -42,6 +48,7 @@ class LivePage {
  private:
   void take_header(const RecordingHeader& header);
   void take_samples();
+  void take_row(const LiveRow& row);
   void take_notes();
   /// The session's time of what a note tells.
   [[nodiscard]] double moment_s(const LiveNote& note) const;
@@ -56,6 +63,8 @@ class LivePage {
   LiveNews news_;
   LiveRows rows_;
   PeakKeeper keeper_;
+  double longest_step_s_ = kNoEnd;  ///< from row to row, where they are thinned
+  std::optional<double> last_s_;    ///< the row before
   std::vector<LiveRow> kept_;
   LivePoints points_;
   std::deque<std::string> notes_;

@@ -54,8 +54,22 @@ void LivePoints::add(const LiveRow& row) {
 std::string LivePoints::json(std::uint64_t from) const {
   const auto wanted =
       static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(end_ - from, rows_.size()));
-  const auto end = rows_.end();
-  const auto begin = end - wanted;
+  return json(rows_.end() - wanted, rows_.end());
+}
+
+std::vector<std::string> LivePoints::slices() const {
+  std::vector<std::string> slices;
+  auto begin = rows_.begin();
+  do {
+    const auto end = std::find_if(
+        begin, rows_.end(), [&](const LiveRow& row) { return row.t_s >= begin->t_s + kSliceS; });
+    slices.push_back(json(begin, end));
+    begin = end;
+  } while (begin != rows_.end());
+  return slices;
+}
+
+std::string LivePoints::json(Row begin, Row end) const {
   std::string text = "{";
   const auto column = [&](const char* name, std::size_t decimals, double LiveRow::*member) {
     fmt::format_to(std::back_inserter(text), "{}\"{}\":", text.size() > 1 ? "," : "", name);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/buffers_suffix.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -42,6 +44,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   using Error = penduline::Error;
   using ErrorCode = boost::system::error_code;
   using Request = boost::beast::http::request<boost::beast::http::string_body>;
+  using Buffers = boost::beast::buffers_suffix<std::vector<boost::asio::const_buffer>>;
   using Action = std::function<tl::expected<void, Error>()>;
 
   void take_request(ErrorCode failed);
@@ -54,6 +57,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void linger();
   void begin_live();
   void send(std::vector<LiveEvents::Text> texts);
+  void send_rest();
   void watch_for_end();
   void begin_download();
   void send_file();
@@ -68,7 +72,12 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   std::size_t lingered_bytes_ = 0;
   std::optional<std::list<WebConnection*>::iterator> waiting_;
   std::optional<std::list<WebConnection*>::iterator> viewing_;
-  bool sending_ = false;
+  /// What a viewer has not yet taken: `left` is of `texts`.
+  struct Sending {
+    std::vector<LiveEvents::Text> texts;
+    Buffers left;
+  };
+  std::optional<Sending> sending_;
   std::uint64_t position_ = 0;  ///< in the page's events
   std::optional<RecordingDownload> download_;
   std::vector<char> piece_;

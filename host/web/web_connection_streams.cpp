@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/asio/write.hpp>
+#include <boost/beast/core/buffer_traits.hpp>
 #include <utility>
 
 #include "host/web/web_connection.hpp"
@@ -51,21 +52,29 @@ void WebConnection::send_news() {
 }
 
 void WebConnection::send(std::vector<LiveEvents::Text> texts) {
-  sending_ = true;
   std::vector<asio::const_buffer> buffers;
   buffers.reserve(texts.size());
   for (const LiveEvents::Text& text : texts) {
     buffers.emplace_back(text->data(), text->size());
   }
+  sending_.emplace(Sending{.texts = std::move(texts), .left = Buffers(buffers)});
+  send_rest();
+}
+
+void WebConnection::send_rest() {
+  // Anew for each piece: who is slow, and takes something, goes on.
   stream_.expires_after(server_.limits_.viewer_time);
-  asio::async_write(
-      stream_, buffers,
-      [self = shared_from_this(), texts = std::move(texts)](ErrorCode failed, std::size_t) {
-        self->sending_ = false;
-        if (failed) {
-          self->close();
-        }
-      });
+  stream_.async_write_some(sending_->left,
+                           [self = shared_from_this()](ErrorCode failed, std::size_t bytes) {
+                             if (failed) {
+                               return self->close();
+                             }
+                             self->sending_->left.consume(bytes);
+                             if (boost::beast::buffer_bytes(self->sending_->left) > 0) {
+                               return self->send_rest();
+                             }
+                             self->sending_.reset();
+                           });
 }
 
 void WebConnection::watch_for_end() {

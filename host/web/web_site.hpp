@@ -32,7 +32,7 @@ struct WebLimits {
   std::size_t downloads = 4;
   /// For a whole request; and for the answer to be taken.
   std::chrono::milliseconds request_time{5000};
-  /// For a viewer to take what was sent to it.
+  /// For a viewer to take anything of what was sent to it.
   std::chrono::milliseconds viewer_time{60000};
   std::uint32_t header_bytes = 8192;
   std::uint64_t body_bytes = 4096;

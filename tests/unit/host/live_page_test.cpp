@@ -117,6 +117,33 @@ TEST_CASE("Above 100 Hz points are thinned", "[web]") {
   CHECK(points["t_s"].size() == 49);
 }
 
+TEST_CASE("A new viewer gets the points second by second", "[web]") {
+  Session session;
+  for (int i = 0; i < 50; ++i) {
+    session.sample(static_cast<std::uint64_t>(i), 50'000 * i);
+  }
+  session.turn();
+  const Events greeting = events_in(session.page.greeting());
+  REQUIRE(names_of(greeting) == Names{"session", "points", "points", "points", "state"});
+  CHECK(greeting[1].second["t_s"].size() == 20);
+  CHECK(greeting[2].second["t_s"].front() == 1.0);
+  CHECK(greeting[3].second["t_s"].back() == 2.45);
+}
+
+TEST_CASE("Above 100 Hz a row without answers stands in a dropout", "[web]") {
+  Session session(1000);
+  for (const int t_ms : {0, 1, 2, 3, 4, 5, 15, 16, 17, 18, 50}) {
+    session.sample(static_cast<std::uint64_t>(t_ms), 1000 * t_ms);
+  }
+  session.turn();
+  const auto points = events_in(session.page.greeting()).at(1).second;
+  // At rest the first row of a bin has every extreme.
+  CHECK(points["t_s"] == Json::parse("[0.0, 0.01, 0.034]"));
+  CHECK(points["signal_v"][0][0].is_number());
+  CHECK(points["signal_v"][0][1].is_null());
+  CHECK(points["signal_v"][0][2].is_null());
+}
+
 TEST_CASE("A recording that begins is a change of the session", "[web]") {
   Session session;
   session.turn(1s);

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -32,6 +34,22 @@ TEST_CASE("Only what came later than a place is told", "[web]") {
   const auto json = nlohmann::json::parse(points.json(place));
   CHECK(json["t_s"] == nlohmann::json::parse("[2.0]"));
   CHECK(nlohmann::json::parse(points.json(points.end()))["t_s"].empty());
+}
+
+TEST_CASE("Slices are of a second each, and one is there without any row", "[web]") {
+  LivePoints points(2);
+  const auto moments = [&] {
+    std::vector<nlohmann::json> slices;
+    for (const std::string& slice : points.slices()) {
+      slices.push_back(nlohmann::json::parse(slice)["t_s"]);
+    }
+    return slices;
+  };
+  CHECK(moments() == std::vector<nlohmann::json>{nlohmann::json::array()});
+  for (const double t_s : {0.25, 0.5, 1.2, 1.25, 3.5}) {
+    points.add({.t_s = t_s});
+  }
+  CHECK(moments() == std::vector<nlohmann::json>{{0.25, 0.5, 1.2}, {1.25}, {3.5}});
 }
 
 TEST_CASE("A minute is kept, and never more rows than memory is meant for", "[web]") {

@@ -17,6 +17,7 @@
 #include <fstream>
 #include <istream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -36,10 +37,13 @@ using boost::asio::ip::tcp;
 
 const RigFile kRig = parse_rig(std::string(kRigText), "rig.toml").value();
 
-/// A server of a page into which a thread puts a sample each millisecond, as a session would.
+/// A server of a page into which a thread puts a sample each millisecond, as a session would. Of
+/// what says 100 Hz every sample is shown.
 class Watched {
  public:
-  explicit Watched(WebLimits limits = {}, std::optional<std::string> recording = {}) {
+  explicit Watched(WebLimits limits = {}, std::optional<std::string> recording = {},
+                   double rate_hz = 1000)
+      : rate_hz_(rate_hz) {
     auto listener = WebListener::open({.host = "127.0.0.1", .port = 0});
     REQUIRE(listener);
     const std::string url = (*listener)->url();
@@ -80,13 +84,14 @@ class Watched {
     }
   }
 
+  double rate_hz_;
   LiveFeed feed_;
   LivePage page_{feed_,
                  {.rig = kRig,
                   .rig_name = "rig",
                   .source = "sim:",
                   .estimator = "gn",
-                  .header = header_of("sim", 1000)},
+                  .header = header_of("sim", rate_hz_)},
                  [] { return RecordingState(); }};
   std::string port_;
   std::unique_ptr<WebServer> server_;
@@ -98,7 +103,13 @@ class Watched {
 /// A browser, or what pretends to be one.
 class Client {
  public:
-  explicit Client(const Watched& watched) : port_(watched.port()) {
+  /// Of who does not read at once the system keeps about `receive_buffer_bytes`.
+  explicit Client(const Watched& watched, std::optional<int> receive_buffer_bytes = {})
+      : port_(watched.port()) {
+    socket_.open(tcp::v4());
+    if (receive_buffer_bytes) {
+      socket_.set_option(boost::asio::socket_base::receive_buffer_size(*receive_buffer_bytes));
+    }
     socket_.connect(
         {boost::asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(std::stoi(port_))});
   }
@@ -125,11 +136,28 @@ class Client {
     std::getline(stream, text);
     return text;
   }
-  /// Takes what there is, up to 64 KiB; how much, 0 at the end.
-  std::size_t take() {
+  /// Takes what there is, up to `most` bytes, 64 KiB at most; how much, 0 at the end.
+  std::size_t take(std::size_t most = 65536) {
     std::array<char, 65536> piece{};
     boost::system::error_code ended;
-    return socket_.read_some(boost::asio::buffer(piece), ended);
+    return socket_.read_some(boost::asio::buffer(piece, most), ended);
+  }
+  /// The next event of a stream; both empty at the end.
+  struct Event {
+    std::string name;
+    std::string data;
+  };
+  Event event() {
+    Event found;
+    for (std::string text = line(); !ended_; text = line()) {
+      if (text.starts_with("event: ")) {
+        found.name = text.substr(7);
+      } else if (text.starts_with("data: ")) {
+        found.data = text.substr(6);
+        break;
+      }
+    }
+    return found;
   }
   /// Skips lines until one begins so; false where the connection ends before.
   bool finds(const std::string& begin) {
@@ -164,17 +192,56 @@ TEST_CASE("A viewer gets session, points and state, and then more points", "[thr
   }
 }
 
-TEST_CASE("A viewer that reads nothing holds up neither the session nor another viewer",
+TEST_CASE("A viewer that reads nothing holds up nobody, and goes on with the newest when it reads",
           "[threads]") {
-  const Watched watched;
-  Client stalled(watched);
+  const Watched watched({.send_buffer_bytes = 4096}, {}, 100);
+  Client stalled(watched, 4096);
   stalled.ask("GET", "/live");
   Client viewer(watched);
   viewer.ask("GET", "/live");
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 100; ++i) {  // five seconds, where 64 events are kept
     CHECK(viewer.finds("event: points"));
   }
   CHECK(watched.longest() < 200ms);
+  const auto moments = [](const Client::Event& points) {
+    return nlohmann::json::parse(points.data)["t_s"].get<std::vector<double>>();
+  };
+  CHECK(stalled.event().name == "session");
+  double latest_s = 0;
+  Client::Event next = stalled.event();
+  for (; next.name == "points" || next.name == "state"; next = stalled.event()) {
+    const auto moments_s = next.name == "points" ? moments(next) : std::vector<double>();
+    latest_s = moments_s.empty() ? latest_s : moments_s.back();
+  }
+  CHECK(next.name == "session");
+  CHECK(stalled.event().name == "state");
+  next = stalled.event();
+  REQUIRE(next.name == "points");
+  CHECK(moments(next).at(0) > latest_s + 3);
+}
+
+TEST_CASE("A viewer that takes nothing for its time is closed", "[threads]") {
+  const Watched watched({.viewer_time = 500ms, .send_buffer_bytes = 4096}, {}, 100);
+  Client stalled(watched, 4096);
+  stalled.ask("GET", "/live");
+  std::this_thread::sleep_for(2s);
+  const auto until = std::chrono::steady_clock::now() + 2s;
+  bool ended = false;
+  while (!ended && std::chrono::steady_clock::now() < until) {
+    ended = stalled.take() == 0;
+  }
+  CHECK(ended);
+}
+
+TEST_CASE("A viewer that is slow but takes something is not closed", "[threads]") {
+  const Watched watched({.viewer_time = 500ms, .send_buffer_bytes = 4096}, {}, 100);
+  std::this_thread::sleep_for(1s);  // there is more to begin with than it takes in its time
+  Client slow(watched, 4096);
+  slow.ask("GET", "/live");
+  for (int i = 0; i < 25; ++i) {
+    REQUIRE(slow.take(2000) > 0);
+    std::this_thread::sleep_for(100ms);
+  }
 }
 
 TEST_CASE("More viewers than there may be are told so", "[threads]") {
