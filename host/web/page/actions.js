@@ -8,10 +8,16 @@ const kTokenKey = 'penduline_token';
 function takeToken() {
   const found = new URLSearchParams(location.hash.slice(1)).get('token');
   if (found) {
-    sessionStorage.setItem(kTokenKey, found);
     history.replaceState(null, '', location.pathname);
   }
-  return found ?? sessionStorage.getItem(kTokenKey);
+  try {
+    if (found) {
+      sessionStorage.setItem(kTokenKey, found);
+    }
+    return found ?? sessionStorage.getItem(kTokenKey);
+  } catch { // where sites may store nothing the token is gone with a reload
+    return found;
+  }
 }
 
 export class Actions {
@@ -21,6 +27,7 @@ export class Actions {
     this.token = takeToken();
     this.session = null;
     this.connected = false;
+    this.shownHindrance = null;
     this.button = document.getElementById('record-button');
     this.words = document.getElementById('actions-words');
     this.text = document.getElementById('mark-text');
@@ -44,7 +51,12 @@ export class Actions {
     this.button.disabled = hindrance !== '' || !session?.can_record;
     this.text.disabled = hindrance !== '';
     document.getElementById('mark-button').disabled = hindrance !== '';
-    write(this.words, hindrance || (session?.can_record ? '' : 'This source cannot be recorded.'));
+    const reason = hindrance || (session?.can_record ? '' : 'This source cannot be recorded.');
+    // Why an action failed stays there until something else hinders.
+    if (reason !== this.shownHindrance) {
+      this.shownHindrance = reason;
+      write(this.words, reason);
+    }
     this.showDownload(session?.download ?? null);
     if (!first && (was?.name ?? null) !== (recording?.name ?? null)) {
       this.announce(recording ? `Recording into ${recording.name}.` : 'The recording has ended.');
@@ -102,7 +114,7 @@ export class Actions {
     try {
       const answer = await fetch(path, { method: 'POST', headers, body: JSON.stringify(body) });
       if (answer.ok) {
-        write(this.words, '');
+        write(this.words, this.shownHindrance ?? '');
         return true;
       }
       const { error } = await answer.json().catch(() => ({}));
@@ -115,6 +127,6 @@ export class Actions {
 
   refuse(sentence) {
     write(this.words, sentence);
-    this.announce(sentence);
+    this.announce(sentence.endsWith('.') ? sentence : `${sentence}.`);
   }
 }

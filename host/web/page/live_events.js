@@ -3,8 +3,9 @@
 const kSilence_ms = 6000;
 const kRetry_ms = 1000;
 
-/// Opens `live` and calls `listeners[event](data)`, `listeners.opened()` before a connection's first event and
-/// `listeners.lost()` when there is none; for as long as the page lives.
+/// Opens `live` and calls `listeners[event](data)`, `listeners.opened()` before a connection's first event,
+/// `listeners.lost()` when there is none and `listeners.refused()` where the program answers and gives none; for as
+/// long as the page lives.
 export function followLive(listeners) {
   let source = null;
   let silence = 0;
@@ -16,11 +17,13 @@ export function followLive(listeners) {
       heard();
     });
     source.addEventListener('error', () => {
-      listeners.lost();
       // The browser tries again by itself unless it was refused.
       if (source.readyState === EventSource.CLOSED) {
+        listeners.refused();
         clearTimeout(silence);
         silence = setTimeout(reopen, kRetry_ms);
+      } else {
+        listeners.lost();
       }
     });
     for (const name of ['session', 'points', 'state', 'note']) {
@@ -29,12 +32,13 @@ export function followLive(listeners) {
         listeners[name](JSON.parse(event.data));
       });
     }
+    heard();
   };
   const reopen = () => {
     source.close();
     open();
   };
-  // A connection that died without a word: `state` comes each second.
+  // A connection that died without a word, or was never answered: `state` comes each second.
   const heard = () => {
     clearTimeout(silence);
     silence = setTimeout(() => {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page beside a running program: events in, pictures and words out.
 import { Actions } from './actions.js';
+import { Announcer } from './announcer.js';
 import { followLive } from './live_events.js';
 import { Notes } from './notes.js';
 import { Painter } from './painter.js';
 import { showAngles, showSwing } from './readouts.js';
-import { Series } from './series.js';
+import { liveStep_s, Series } from './series.js';
 import { showSession } from './session_words.js';
 import { followTheme } from './theme.js';
 import { Views } from './views.js';
@@ -20,7 +21,8 @@ export class LivePage {
   constructor() {
     this.painter = new Painter();
     this.notes = new Notes();
-    this.actions = new Actions((sentence) => this.announce(sentence));
+    this.announcer = new Announcer(document.getElementById('announcement'));
+    this.actions = new Actions((sentence) => this.announcer.say(sentence));
     this.session = null;
     this.state = null;
     this.views = null;
@@ -29,9 +31,11 @@ export class LivePage {
     this.readout_ms = -Infinity;
     followTheme(() => this.painter.changed());
     followLive({
-      opened: () => this.opened(), lost: () => this.lost(), session: (session) => this.takeSession(session),
+      opened: () => this.opened(), session: (session) => this.takeSession(session),
       points: (points) => this.takePoints(points), state: (state) => this.takeState(state),
       note: (note) => this.takeNote(note),
+      lost: () => this.lost('The program does not answer; trying again'),
+      refused: () => this.lost('The program takes no more viewers now; trying again'),
     });
   }
 
@@ -39,10 +43,11 @@ export class LivePage {
   opened() {
     this.fresh = true;
     this.notes.clear();
+    this.showMarks();
   }
 
-  lost() {
-    this.connection('lost', 'The program does not answer; trying again');
+  lost(sentence) {
+    this.connection('lost', sentence);
     this.actions.show(this.session, false);
   }
 
@@ -53,13 +58,11 @@ export class LivePage {
       return;
     }
     this.session = session;
-    // Above 100 Hz, rows come in bins of 20 ms.
-    const largestStep_s = 3.5 / Math.min(session.rate_hz || 20, 50);
     if (!before) {
-      this.series = new Series(kCapacity, session.rig.sensors.length, largestStep_s);
+      this.series = new Series(kCapacity, session.rig.sensors.length, liveStep_s(session.rate_hz));
       this.views = new Views(session, this.series, this.painter);
     }
-    this.series.largestStep_s = largestStep_s;
+    this.series.largestStep_s = liveStep_s(session.rate_hz);
     write(document.getElementById('origin'), [session.rig.name, session.source].filter(Boolean).join(' · '));
     write(document.getElementById('program'), session.program);
     document.title = `${session.recording ? '● ' : ''}Penduline · ${session.source}`;
@@ -95,7 +98,7 @@ export class LivePage {
       showAngles(this.series, -1);
     }
     if (was === false && state.connected) {
-      this.announce(this.hadBoard ? 'The board is back.' : 'The board is there.');
+      this.announcer.say(this.hadBoard ? 'The board is back.' : 'The board is there.');
     }
     this.hadBoard ||= state.connected;
     this.views.scene.ellipse = state.ellipse;
@@ -107,21 +110,23 @@ export class LivePage {
 
   takeNote(note) {
     this.notes.add(note);
-    this.views.scene.marks_s = this.notes.marks_s;
-    this.painter.changed();
+    this.showMarks();
+  }
+
+  showMarks() {
+    if (this.views) {
+      this.views.scene.marks_s = this.notes.marks_s;
+      this.painter.changed();
+    }
   }
 
   /// Shown at once, said aloud only when it changes.
   connection(state, sentence) {
     const element = document.getElementById('connection');
-    if (element.dataset.state !== state) {
-      element.dataset.state = state;
-      this.announce(`${sentence}.`);
+    element.dataset.state = state;
+    if (element.textContent !== sentence) {
+      element.textContent = sentence;
+      this.announcer.say(`${sentence}.`);
     }
-    write(element, sentence);
-  }
-
-  announce(sentence) {
-    write(document.getElementById('announcement'), sentence);
   }
 }

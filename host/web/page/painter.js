@@ -6,6 +6,7 @@ export class Painter {
   constructor() {
     this.views = new Map();
     this.scheduled = false;
+    this.timer = 0;
     this.latest_ms = -Infinity;
     this.calm = matchMedia('(prefers-reduced-motion: reduce)');
     this.sight = new IntersectionObserver((entries) => {
@@ -31,7 +32,13 @@ export class Painter {
     for (const [key, view] of this.views) {
       view.dirty ||= element === null || key === element;
     }
-    this.latest_ms = atOnce ? -Infinity : this.latest_ms;
+    if (atOnce) {
+      this.latest_ms = -Infinity;
+      if (this.timer) {
+        clearTimeout(this.timer);
+        this.goOn();
+      }
+    }
     this.schedule();
   }
 
@@ -42,16 +49,20 @@ export class Painter {
     }
   }
 
+  /// A wait is over.
+  goOn() {
+    this.timer = 0;
+    this.scheduled = false;
+    this.schedule();
+  }
+
   frame(now_ms) {
     this.scheduled = false;
     const views = [...this.views.values()].filter((view) => view.dirty && view.seen);
     const wait_ms = this.calm.matches ? kCalm_ms - (now_ms - this.latest_ms) : 0;
     if (views.length > 0 && wait_ms > 0) {
       this.scheduled = true;
-      setTimeout(() => {
-        this.scheduled = false;
-        this.schedule();
-      }, wait_ms);
+      this.timer = setTimeout(() => this.goOn(), wait_ms);
       return;
     }
     this.latest_ms = views.length > 0 ? now_ms : this.latest_ms;

@@ -8,6 +8,12 @@ const kScales = {
   x_m: ['x', kMillimetres], y_m: ['y', kMillimetres], z_m: ['z', kMillimetres],
 };
 
+/// How far apart the rows of a live stream at `rate_hz` (null: not known) are without a dropout between them: above
+/// 100 Hz they come in bins of 20 ms, and dropouts as rows without answers (docs/web_protocol.md).
+export function liveStep_s(rate_hz) {
+  return 3.5 / (rate_hz > 100 ? 50 : rate_hz || 20);
+}
+
 /// Rows `begin` to `end` of each column hold the latest `capacity` rows or more, oldest first; NaN is no answer.
 /// Where rows are further apart than `largestStep_s`, a row without answers stands between them.
 export class Series {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of the session in sentences.
-import { clock, count, fixed, typeset, write } from './words.js';
+import { clock, count, fixed, shortest, typeset, write } from './words.js';
 
 /// Shows `session` and `state` as a list of terms and sentences; what did not change is left alone. Of a recording
 /// `recorded` says what all of it has come to.
@@ -60,7 +60,7 @@ function rateSentence(session, state) {
   if (!Number.isFinite(session.rate_hz)) {
     return 'Not known before the board is there.';
   }
-  const wanted = `${fixed(session.rate_hz, 0)} Hz`;
+  const wanted = `${shortest(session.rate_hz, 3)} Hz`;
   return Number.isFinite(state.rate_hz) ? `${fixed(state.rate_hz, 2)} Hz of ${wanted} asked for.` : `${wanted} asked for.`;
 }
 
@@ -79,8 +79,8 @@ function lightSentence({ rig }, sensors) {
 
 function signalSentence({ rig, reference_v }, sensors) {
   const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
-  const troubles = sensors.flatMap(({ saturated, out_of_range }, i) => [
-    ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
+  const troubles = sensors.flatMap(({ signal_v, saturated, out_of_range }, i) => [
+    ...(signal_v === null ? [`${name(i)} is not read`] : []), ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
   if (sensors.some(({ saturated }) => saturated === null)) {
     troubles.unshift('One sensor is saturated, which one is not known');
   }

@@ -121,8 +121,9 @@ export class TimePlot {
     this.reach = reach(series, from, to);
     this.marks_s = marks_s;
     this.plot.setData(data);
-    // What the axes span, for whoever reads the picture by program.
-    this.host.dataset.axes = JSON.stringify({ t_s: this.span, value: this.reach });
+    // What the axes span, and the marks in between, for whoever reads the picture by program.
+    const seen_s = marks_s.filter((t_s) => t_s >= span[0] && t_s <= span[1]);
+    this.host.dataset.axes = JSON.stringify({ t_s: this.span, value: this.reach, marks_s: seen_s });
   }
 
   /// Behind the curves: what each sensor can measure, darker where several can, its ends as lines.

@@ -13,6 +13,11 @@ export function fixed(value, decimals, width = 0) {
   return ((negative ? kMinus : '') + digits).padStart(width, kFigureSpace);
 }
 
+/// `value` with as many decimals as it has, `decimals` at most: "20", "12.5".
+export function shortest(value, decimals) {
+  return fixed(value, (String(Number(value.toFixed(decimals))).split('.')[1] ?? '').length);
+}
+
 /// Texts of an axis's ticks, all with the same decimals: "0.0", "0.5", "1.0".
 export function ticks(values) {
   const shortest = values.map((value) => String(Number(value.toPrecision(6))));
