@@ -18,8 +18,18 @@ def address_of(run, seconds=10):
     raise AssertionError(f"no live page within {seconds} s: {run.lines_said()}")
 
 
-def connect(port, host="127.0.0.1"):
-    return socket.create_connection((host, port), timeout=10)
+def connect(port, host="127.0.0.1", receive_buffer_bytes=None):
+    """The system keeps about `receive_buffer_bytes` of what is not read; none: as it does."""
+    connection = socket.socket()
+    connection.settimeout(10)
+    if receive_buffer_bytes is not None:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer_bytes)
+    try:
+        connection.connect((host, port))
+    except OSError:
+        connection.close()
+        raise
+    return connection
 
 
 def received(connection):
@@ -53,11 +63,17 @@ def act(port, target, values=None, headers=None, host="127.0.0.1"):
     return status, json.loads(body)
 
 
+def joined(columns, more):
+    """The columns of `points`, and behind them those of the next one."""
+    return {key: [a + b for a, b in zip(column, more[key])] if key in ("signal_v", "gap_m")
+            else column + more[key] for key, column in columns.items()}
+
+
 class Viewer:
     """Server-sent events of /live, as they come."""
 
-    def __init__(self, port):
-        self.connection = connect(port)
+    def __init__(self, port, receive_buffer_bytes=None):
+        self.connection = connect(port, receive_buffer_bytes=receive_buffer_bytes)
         self.connection.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
         self.file = self.connection.makefile("rb")
         self.head = []
@@ -82,6 +98,17 @@ class Viewer:
             if found == name and accepted(data):
                 return data
         raise AssertionError(f"no such {name} within {seconds} s")
+
+    def greeting(self):
+        """What a connection begins with: the columns of all rows up to now, and the notes."""
+        columns, notes = {}, []
+        while (event := self.next())[0] != "state":
+            name, data = event
+            if name == "points":
+                columns = joined(columns, data) if columns else data
+            elif name == "note":
+                notes.append(data)
+        return columns, notes
 
     def close(self):
         self.file.close()

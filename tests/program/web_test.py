@@ -3,13 +3,16 @@
 import math
 import pathlib
 import re
+import resource
+import shutil
+import subprocess
 import time
 import unittest
 
 from live_run import LiveRunTest
 from program import PROGRAM, RIGS, ProgramTest, read_rows, run
 from sim_board import WITHOUT_PTS, SimBoard
-from web_client import Viewer, act, address_of, ask
+from web_client import Viewer, act, address_of, ask, joined
 
 RIG = RIGS / "paper.toml"
 
@@ -47,13 +50,9 @@ class WebTest(LiveRunTest, ProgramTest):
         self.assertEqual(session["rig"]["name"], "paper")
         name, points = viewer.next()
         self.assertEqual(name, "points")
-        self.assertGreaterEqual(len(points["t_s"]), 25)
+        self.assertLess(points["t_s"][-1] - points["t_s"][0], 1)
         while len(points["t_s"]) < 60:
-            for key, more in viewer.wait_for("points").items():
-                if key in ("signal_v", "gap_m"):
-                    points[key] = [a + b for a, b in zip(points[key], more)]
-                else:
-                    points[key] += more
+            points = joined(points, viewer.wait_for("points"))
         started.wait_for_rows(70)
         rows = started.rows()
         by_time = {round(float(row["t_s"]), 4): row for row in rows}
@@ -116,6 +115,45 @@ class WebTest(LiveRunTest, ProgramTest):
         for row in filled:
             self.assertEqual(row, live[row["seq"]])
 
+    def test_a_full_disk_is_told_to_viewers(self):
+        started, port = self.start("--rate", "1000", "-o", "/dev/null")
+        resource.prlimit(started.process.pid, resource.RLIMIT_FSIZE,
+                         (20_000, resource.RLIM_INFINITY))
+        viewer = self.viewer(port)
+        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        path = rf"{self.folder}/penduline-\S+\.csv"
+        full = viewer.wait_for("note", lambda data: data["kind"] == "warning")
+        self.assertRegex(full["text"], f"^{path}: File too large; sampling goes on, and recording "
+                                       "will when it can$")
+        resource.prlimit(started.process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
+        again = viewer.wait_for("note", lambda data: data["kind"] == "warning")
+        self.assertRegex(again["text"], f"^{path}: recording goes on; 0 samples are missing in it$")
+        self.finish(started)
+
+    def test_why_a_recording_failed_stands_in_its_last_note(self):
+        started, port = self.start("--rate", "1000", "-o", "/dev/null")
+        resource.prlimit(started.process.pid, resource.RLIMIT_FSIZE,
+                         (20_000, resource.RLIM_INFINITY))
+        viewer = self.viewer(port)
+        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        viewer.wait_for("note", lambda data: data["kind"] == "warning")
+        status, said = act(port, "/recording/stop")
+        self.assertEqual(status, 409)
+        self.assertRegex(said["error"], "File too large$")
+        ended = viewer.wait_for("note", lambda data: data["text"].startswith("Recording has ended"))
+        self.assertRegex(ended["text"], r"^Recording has ended: recorded \d+ samples in \S+, lost "
+                                        rf"\d+; {said['error']}\.$")
+        self.finish(started)
+
+    def test_without_a_network_the_address_of_this_machine_is_printed(self):
+        alone = ["unshare", "--map-root-user", "--net"]
+        if not shutil.which("unshare") or subprocess.run([*alone, "true"], check=False,
+                                                         capture_output=True).returncode != 0:
+            self.skipTest("found no right to a network of one's own (unshare --net)")
+        done = subprocess.run([*alone, PROGRAM, "run", "sim:", "--rig", RIG, "--seconds", "0.2",
+                               "--web", "0.0.0.0:8080"], check=True, capture_output=True, text=True)
+        self.assertRegex(done.stderr, r"live page: http://127\.0\.0\.1:8080/#token=")
+
     def test_the_recording_of_the_command_line_is_the_one_shown_and_goes_on_from_there(self):
         path = self.folder / "rec.csv"
         started, port = self.start("--record", path)
@@ -157,8 +195,7 @@ class WebTest(LiveRunTest, ProgramTest):
         started, port = self.start("--rate", "1000", "--noise", "0.01")
         viewer = self.viewer(port)
         viewer.wait_for("state", lambda data: data["samples"] > 3000)
-        again = self.viewer(port)
-        points = again.wait_for("points")
+        points, _ = self.viewer(port).greeting()
         started.wait_for_rows(2500)
         thinned = {round(t_s, 4): i for i, t_s in enumerate(points["t_s"])}
         self.assertLess(len(thinned), 0.7 * 1000 * points["t_s"][-1])
@@ -190,7 +227,7 @@ class WebTest(LiveRunTest, ProgramTest):
         # A sanitizer keeps 256 MB of what was freed.
         most_kb = 450000 if b"__asan_init" in PROGRAM.read_bytes() else 150000
         self.assertLess(int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]), most_kb)
-        points = self.viewer(port).wait_for("points")
+        points, _ = self.viewer(port).greeting()
         self.assertLessEqual(points["t_s"][-1] - points["t_s"][0], 60)
         started.interrupt()
         self.assertEqual(started.end()[0], 0)
@@ -254,11 +291,10 @@ class BoardTest(LiveRunTest, ProgramTest):
         self.assertEqual(points["t_s"], sorted(points["t_s"]))
         greeting = Viewer(web)
         self.addCleanup(greeting.close)
-        times = greeting.wait_for("points")["t_s"]
-        self.assertEqual(times, sorted(set(times)))
-        kinds = []
-        while kinds.count("connected") < 2:  # at the beginning, and again
-            kinds.append(greeting.wait_for("note")["kind"])
+        points, notes = greeting.greeting()
+        self.assertEqual(points["t_s"], sorted(set(points["t_s"])))
+        kinds = [note["kind"] for note in notes]
+        self.assertEqual(kinds.count("connected"), 2)  # at the beginning, and again
         self.assertIn("mark", kinds)
         self.assertIn("disconnected", kinds)
         self.assertEqual(act(web, "/recording/stop"), (200, {}))

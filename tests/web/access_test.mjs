@@ -48,7 +48,7 @@ test('keys alone start a recording, set a mark and stop it', async () => {
   await until('a recording', async () => (await page.textContent('#record-button')) === 'Stop recording');
   await until('the words', async () => (await page.textContent('#record-words')).startsWith('Recording into '));
   assert.equal(await page.evaluate(() => document.activeElement.id), 'record-button');
-  assert.match(await page.textContent('#announcement'), /^Recording into .*\.csv\.$/);
+  await until('the sentence', async () => /^Recording into .*\.csv\.$/.test(await page.textContent('#announcement')));
   await tabTo(page, 'mark-text');
   await page.keyboard.type('a gust <b>of</b> wind');
   await page.keyboard.press('Enter');
@@ -79,6 +79,43 @@ test('keys alone turn the view in space, and turn it back', async () => {
   assert.notEqual(turned, home);
   await page.keyboard.press('Home');
   assert.equal(await seenFrom(), home);
+  await page.close();
+});
+
+test('with reduced motion the view in space turns with each key, not once a second', async () => {
+  const page = await run.browser.newPage();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.goto(run.program.url);
+  await drawn(page);
+  await page.locator('#space canvas').scrollIntoViewIfNeeded();
+  await tabTo(page, 'space');
+  const picture = () => page.evaluate(() => document.querySelector('#space canvas').toDataURL());
+  const begin_ms = Date.now();
+  let latest = await picture();
+  for (let i = 0; i < 5; ++i) {
+    await page.keyboard.press('ArrowLeft');
+    const before = latest;
+    await until('it turns', async () => (latest = await picture()) !== before);
+  }
+  assert.ok(Date.now() - begin_ms < 2500, `${Date.now() - begin_ms} ms for 5 turns`);
+  await page.close();
+});
+
+test('what is said twice is heard twice', async () => {
+  const { page } = await openPage(run.browser, run.program.url);
+  await drawn(page);
+  await until('a button', () => page.isEnabled('#mark-button'));
+  await page.evaluate(() => {
+    window.said = [];
+    const element = document.getElementById('announcement');
+    new MutationObserver(() => window.said.push(element.textContent)).observe(element,
+      { childList: true, characterData: true, subtree: true });
+  });
+  for (const times of [1, 2]) {
+    await page.click('#mark-button');
+    await until('the words', () => page.evaluate((wanted) =>
+      window.said.filter((text) => text === 'Marked: mark.').length === wanted, times), 5000);
+  }
   await page.close();
 });
 

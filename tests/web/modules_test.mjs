@@ -5,7 +5,8 @@ import assert from 'node:assert';
 import { test } from 'node:test';
 import { rowsToDraw } from '../../host/web/page/decimate.js';
 import { roundStep, roundUp, SteadyReach } from '../../host/web/page/reach.js';
-import { Series } from '../../host/web/page/series.js';
+import { liveStep_s, Series } from '../../host/web/page/series.js';
+import { sentences } from '../../host/web/page/session_words.js';
 import { clock, count, fixed, ticks, typeset } from '../../host/web/page/words.js';
 
 /** A `points` event of the moments `t_s`; theta1 is `value(t)` rad, all else 0. */
@@ -47,6 +48,11 @@ test('lost samples leave a gap, and rows that came before are not taken twice', 
   series.append(points([0.05, 0.1, 0.5, 0.55]));
   assert.deepEqual([...series.columns.t.subarray(series.begin, series.end)], [0, 0.05, 0.1, 0.3, 0.5, 0.55]);
   assert.ok(Number.isNaN(series.columns.theta1[3]));
+});
+
+test('a dropout is more than three periods, above 100 Hz more than three bins of 20 ms', () => {
+  assert.deepEqual([20, 60, 100, 101, 1000, null].map(liveStep_s),
+    [3.5 / 20, 3.5 / 60, 3.5 / 100, 3.5 / 50, 3.5 / 50, 3.5 / 20]);
 });
 
 test('thinned out for the eye, a spike of one row of 100 000 is still there', () => {
@@ -100,4 +106,26 @@ test('times and counts read as people say them', () => {
 test('what the program prints in plain text gets its signs and powers', () => {
   assert.equal(typeset('9.8127 +- 0.0021 m/s2, length -3'), '9.8127 ± 0.0021 m/s², length \u22123');
   assert.equal(typeset('T (1 + a^2/16), 2026-11-22'), 'T (1 + a²/16), 2026-11-22');
+});
+
+/** What the page says under `term` of a session at `rate_hz` with these `sensors`. */
+function said(term, rate_hz, sensors) {
+  const session = {
+    board: 'sim', rate_hz, reference_v: 3.3, estimator: 'gn',
+    rig: { name: 'rig', length_m: 0.3, sensors: [{ name: 'x' }, { name: 'y' }] },
+  };
+  const state = { connected: true, samples: 5, lost: 0, dropouts: 0, restarts: 0, rate_hz: 12.5, sensors };
+  return new Map(sentences(session, state)).get(term);
+}
+
+test('a rate that is not whole is said with its decimals', () => {
+  assert.equal(said('Rate', 12.5, []), '12.50 Hz of 12.5 Hz asked for.');
+  assert.equal(said('Rate', 20, []), '12.50 Hz of 20 Hz asked for.');
+  assert.equal(said('Rate', 33.3333, []), '12.50 Hz of 33.333 Hz asked for.');
+});
+
+test('a sensor without a reading is said not to be read', () => {
+  const read = { ambient_v: null, signal_v: 1.5, saturated: false, out_of_range: false };
+  assert.equal(said('Signals', 20, [read, read]), 'None is saturated or out of its range; full scale is 3.30 V.');
+  assert.equal(said('Signals', 20, [read, { ...read, signal_v: null }]), 'y is not read; full scale is 3.30 V.');
 });

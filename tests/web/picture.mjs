@@ -23,6 +23,15 @@ export async function shown(page, section) {
   return { ...found, picture: PNG.sync.read(Buffer.from(found.png.split(',')[1], 'base64')) };
 }
 
+/** How many pixels of `picture` are like `wanted`. */
+export function pixelsLike({ data }, wanted) {
+  let found = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    found += data[at + 3] > 150 && wanted.every((value, i) => Math.abs(value - data[at + i]) <= kLikeness) ? 1 : 0;
+  }
+  return found;
+}
+
 /** The page's colour of that name as [red, green, blue]. */
 export function colour(page, name) {
   return page.evaluate((property) => {

@@ -17,12 +17,12 @@ const kSwing = ['--estimator', 'ekf', '--theta-deg', '6', '--phi-deg', '30', '--
 
 /**
  * Starts the program at `address` and `port` (0: any), in a folder of its own, and waits until it has printed the
- * page's address; `url` is that of this machine, `token` what stands behind it.
+ * page's address; `more` are options of the program. `url` is that of this machine, `token` what stands behind it.
  */
-export async function startProgram({ address = '127.0.0.1', port = 0 } = {}) {
+export async function startProgram({ address = '127.0.0.1', port = 0, more = [] } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'penduline-web-'));
   const program = spawn(process.env.PENDULINE,
-    ['run', 'sim:', '--rig', kRig, '--web', `${address}:${port}`, ...kSwing],
+    ['run', 'sim:', '--rig', kRig, '--web', `${address}:${port}`, ...kSwing, ...more],
     { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
   const ended = new Promise((resolve) => program.once('exit', resolve));
   const printed = await new Promise((resolve, reject) => {
@@ -43,21 +43,32 @@ export async function startProgram({ address = '127.0.0.1', port = 0 } = {}) {
     port: Number(printed.port),
     token: printed.hash,
     folder,
+    pid: program.pid,
+    signal: (name) => program.kill(name),
     stop: async () => {
       program.kill('SIGTERM');
+      program.kill('SIGCONT');
       await ended;
       rmSync(folder, { recursive: true });
     },
   };
 }
 
-/** Follows `/live` of `url`: `events[name]` are the data of all events of that name, `stop()` ends it. */
-export function followLive(url) {
+/**
+ * Follows `/live` of `url`: `events[name]` are the data of all events of that name;
+ * one that is `asleep` reads nothing before `wake()`; `stop()` ends it.
+ */
+export function followLive(url, { asleep = false } = {}) {
   const events = { session: [], points: [], state: [], note: [] };
+  let wake = () => {};
   let rest = '';
   const request = http.get(new URL('live', url), (response) => {
     response.setEncoding('utf8');
     response.on('error', () => {});
+    if (asleep) {
+      response.pause();
+      wake = () => response.resume();
+    }
     response.on('data', (text) => {
       const blocks = (rest + text).split('\n\n');
       rest = blocks.pop();
@@ -68,7 +79,7 @@ export function followLive(url) {
     });
   });
   request.on('error', () => {});
-  return { events, stop: () => request.destroy() };
+  return { events, wake: () => wake(), stop: () => request.destroy() };
 }
 
 /** The rows of all `points` events as [t_s, value] of `column` (theta1_rad), no answer left out. */

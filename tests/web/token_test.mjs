@@ -31,6 +31,18 @@ test('a wrong token is refused in the words of the program', async () => {
   await page.close();
 });
 
+test('the page shows the run where it may store nothing, too, and its token works', async () => {
+  const page = await run.browser.newPage();
+  await page.addInitScript(() => Object.defineProperty(window, 'sessionStorage', {
+    get() { throw new DOMException('denied', 'SecurityError'); },
+  }));
+  await page.goto(`${run.program.url}${run.program.token}`);
+  await drawn(page);
+  assert.equal(page.url(), run.program.url);
+  assert.ok(await page.isEnabled('#mark-button'));
+  await page.close();
+});
+
 test('with the token marks are set, it leaves the address bar, and a reload keeps it', async () => {
   assert.match(run.program.token, /^#token=[0-9a-f]{32}$/);
   const { page } = await openPage(run.browser, `${run.program.url}${run.program.token}`);
