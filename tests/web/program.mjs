@@ -54,21 +54,13 @@ export async function startProgram({ address = '127.0.0.1', port = 0, more = [] 
   };
 }
 
-/**
- * Follows `/live` of `url`: `events[name]` are the data of all events of that name;
- * one that is `asleep` reads nothing before `wake()`; `stop()` ends it.
- */
-export function followLive(url, { asleep = false } = {}) {
+/** Follows `/live` of `url`: `events[name]` are the data of all events of that name, `stop()` ends it. */
+export function followLive(url) {
   const events = { session: [], points: [], state: [], note: [] };
-  let wake = () => {};
   let rest = '';
   const request = http.get(new URL('live', url), (response) => {
     response.setEncoding('utf8');
     response.on('error', () => {});
-    if (asleep) {
-      response.pause();
-      wake = () => response.resume();
-    }
     response.on('data', (text) => {
       const blocks = (rest + text).split('\n\n');
       rest = blocks.pop();
@@ -79,7 +71,7 @@ export function followLive(url, { asleep = false } = {}) {
     });
   });
   request.on('error', () => {});
-  return { events, wake: () => wake(), stop: () => request.destroy() };
+  return { events, stop: () => request.destroy() };
 }
 
 /** The rows of all `points` events as [t_s, value] of `column` (theta1_rad), no answer left out. */
