@@ -3,6 +3,7 @@
 #include "host/recorder/recording_switch.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <fstream>
@@ -137,6 +138,7 @@ TEST_CASE("Another thread starts and stops while samples come: none is lost in b
   std::thread sampling([&] {
     for (std::uint64_t seq = 0; !ended; ++seq) {
       static_cast<void>(recording.record(rest_sample(seq)));
+      std::this_thread::sleep_for(std::chrono::microseconds(10));  // or a slow disk has no room
     }
   });
   for (int i = 0; i < 5; ++i) {
