@@ -65,8 +65,9 @@ test('every picture moves, with no complaint in the console', async () => {
   await page.close();
 });
 
-test('two viewers see the same', async () => {
+test('two viewers see the same', async (t) => {
   const program = await startProgram();
+  t.after(() => program.stop());
   const pages = await Promise.all([openPage(run.browser, program.url), openPage(run.browser, program.url)]);
   for (const { page } of pages) {
     await page.setViewportSize({ width: 1440, height: 2000 }); // what is out of sight is not drawn
@@ -87,7 +88,6 @@ test('two viewers see the same', async () => {
     assert.equal(await pictureOf(first, picture), await pictureOf(second, picture), picture);
   }
   for (const { page } of pages) await page.close();
-  await program.stop();
 });
 
 /** Asks for the stream at `port` and reads nothing before `wake()`; `sessions()`: how many of that event it has read. */
@@ -205,8 +205,9 @@ test('a stream that was never answered is asked for again', async () => {
   await page.close();
 });
 
-test('why a recording failed stays to be read, and stands in the notes', async () => {
+test('why a recording failed stays to be read, and stands in the notes', async (t) => {
   const program = await startProgram({ more: ['--rate', '1000'] });
+  t.after(() => program.stop());
   execFileSync('prlimit', ['--pid', String(program.pid), '--fsize=20000:unlimited']);
   const { page } = await openPage(run.browser, program.url);
   await until('a button', () => page.isEnabled('#record-button'));
@@ -219,7 +220,6 @@ test('why a recording failed stays to be read, and stands in the notes', async (
   assert.match(await page.textContent('#note-list'), /Recording has ended: .*; .*\.csv: File too large\./);
   assert.match(await page.textContent('#announcement'), /File too large\./);
   await page.close();
-  await program.stop();
 });
 
 test('a tab that slept shows the latest when it wakes up', async () => {
