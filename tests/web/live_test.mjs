@@ -73,9 +73,15 @@ test('two viewers see the same', async (t) => {
     await page.setViewportSize({ width: 1440, height: 2000 }); // what is out of sight is not drawn
     await until('3 s', async () => (await axesOf(page, 'signals').catch(() => ({ t_s: [0, 0] }))).t_s[1] > 3);
   }
-  program.signal('SIGSTOP');
-  await sleep(1000); // what it had sent is drawn
   const [first, second] = pages.map(({ page }) => page);
+  await until('both have the same events', async () => {
+    program.signal('SIGCONT'); // it may have stopped between one viewer and the other
+    await sleep(300);
+    program.signal('SIGSTOP');
+    await sleep(1000); // what it had sent is drawn
+    const ends = await Promise.all([first, second].map((page) => axesOf(page, 'angles')));
+    return ends[0].t_s[1] === ends[1].t_s[1];
+  });
   for (const section of ['angles', 'gaps', 'signals']) {
     assert.deepEqual(await axesOf(first, section), await axesOf(second, section), section);
     const { picture } = await shown(first, section);
