@@ -80,7 +80,10 @@ function lightSentence({ rig }, sensors) {
 function signalSentence({ rig, reference_v }, sensors) {
   const name = (i) => rig.sensors[i]?.name ?? String(i + 1);
   const troubles = sensors.flatMap(({ signal_v, saturated, out_of_range }, i) => [
-    ...(signal_v === null ? [`${name(i)} is not read`] : []), ...(saturated ? [`${name(i)} is saturated`] : []), ...(out_of_range ? [`${name(i)} is out of its range`] : [])]);
+    ...(signal_v === null ? [`${name(i)} is not read`] : []),
+    ...(saturated ? [`${name(i)} is saturated`] : []),
+    ...(out_of_range ? [`${name(i)} is out of its range`] : []),
+  ]);
   if (sensors.some(({ saturated }) => saturated === null)) {
     troubles.unshift('One sensor is saturated, which one is not known');
   }
