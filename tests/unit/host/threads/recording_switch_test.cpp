@@ -3,8 +3,8 @@
 #include "host/recorder/recording_switch.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
