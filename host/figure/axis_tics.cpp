@@ -10,8 +10,6 @@
 namespace penduline {
 namespace {
 
-constexpr double kMostSteps = 10;  // gnuplot's
-
 /// Whether the numbers at every multiple of `step` find room beside each other.
 bool have_room(double least, double most, double step, double width_px) {
   constexpr std::size_t kBetween = 2;
@@ -46,7 +44,8 @@ std::optional<double> x_step(const Panel& panel, double width_px) {
   if (!(least < most)) {
     return std::nullopt;
   }
-  const double finest = (most - least) / kMostSteps;
+  constexpr double kGnuplotsSteps = 10;
+  const double finest = (most - least) / kGnuplotsSteps;
   double step = round_step(finest);
   if (step < finest) {
     step = round_step(2.5 * step);
