@@ -137,15 +137,15 @@ void put_panel(std::string& script, const Figure& figure, const Panel& panel) {
     script += "END\n";
   }
   put_axes(script, figure, panel);
+  const double width_px = panel_width_px(figure);
   script += in_space ? "splot " : "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    fmt::format_to(std::back_inserter(script), "{}$curve{}{} with {} linecolor rgb '{}' {}",
-                   i == 0 ? "" : ", ", i, columns_of(curve), style_of(curve),
-                   kColours[curve.colour.value_or(i % kGrey)],
-                   curve.name.empty()
-                       ? "notitle"
-                       : "title " + gnuplot_string(key_text(curve.name, panel_width_px(figure))));
+    fmt::format_to(
+        std::back_inserter(script), "{}$curve{}{} with {} linecolor rgb '{}' {}",
+        i == 0 ? "" : ", ", i, columns_of(curve), style_of(curve),
+        kColours[curve.colour.value_or(i % kGrey)],
+        curve.name.empty() ? "notitle" : "title " + gnuplot_string(key_text(curve.name, width_px)));
   }
   script += '\n';
 }

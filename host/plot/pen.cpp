@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace penduline {
 namespace {
@@ -39,18 +38,14 @@ PenPath pen_over(const std::vector<double>& x, const std::vector<double>& y,
   const auto column_of = [&](std::size_t row) {
     return width > 0 ? std::floor((x[row] - x.front()) / width) : 0;
   };
-  bool lifted = false;
   for (std::size_t begin = 0; begin < x.size();) {
-    lifted = lifted || !joined[begin];
     if (!std::isfinite(y[begin])) {
-      lifted = true;
       ++begin;
       continue;
     }
-    if (lifted && !path.empty()) {
+    if (!path.empty() && !(joined[begin] && std::isfinite(y[begin - 1]))) {
       path.emplace_back();
     }
-    lifted = false;
     std::size_t end = begin + 1;
     while (end < x.size() && joined[end] && std::isfinite(y[end]) &&
            column_of(end) == column_of(begin)) {
@@ -64,17 +59,13 @@ PenPath pen_over(const std::vector<double>& x, const std::vector<double>& y,
 
 PenPath pen_through(const std::vector<double>& values, const std::vector<bool>& joined) {
   PenPath path;
-  bool lifted = false;
   for (std::size_t row = 0; row < values.size(); ++row) {
-    lifted = lifted || !joined[row];
     if (!std::isfinite(values[row])) {
-      lifted = true;
       continue;
     }
-    if (lifted && !path.empty()) {
+    if (!path.empty() && !(joined[row] && std::isfinite(values[row - 1]))) {
       path.emplace_back();
     }
-    lifted = false;
     path.emplace_back(row);
   }
   return path;
@@ -90,17 +81,14 @@ PenPath pen_in_space(const EstimateSeries& series) {
   }
   const std::vector<bool> joined = joined_rows(series);
   PenPath path;
-  bool lifted = true;
   for (std::size_t row = 0; row < series.size(); ++row) {
-    lifted = lifted || !joined[row];
     if (!known(series, row)) {
-      lifted = true;
       continue;
     }
-    if (lifted && !path.empty()) {
+    const bool follows = !path.empty() && joined[row] && known(series, row - 1);
+    if (!follows && !path.empty()) {
       path.emplace_back();
     }
-    const bool follows = !std::exchange(lifted, false);
     const bool goes_on = row + 1 < series.size() && joined[row + 1] && known(series, row + 1);
     if (follows && goes_on) {
       const std::size_t before = *path.back();
