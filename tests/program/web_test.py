@@ -115,12 +115,17 @@ class WebTest(LiveRunTest, ProgramTest):
         for row in filled:
             self.assertEqual(row, live[row["seq"]])
 
-    def test_a_full_disk_is_told_to_viewers(self):
+    def record_on_a_small_disk(self):
+        """A run whose recording soon finds no more room, its port, a viewer."""
         started, port = self.start("--rate", "1000", "-o", "/dev/null")
         resource.prlimit(started.process.pid, resource.RLIMIT_FSIZE,
                          (20_000, resource.RLIM_INFINITY))
         viewer = self.viewer(port)
         self.assertEqual(act(port, "/recording/start"), (200, {}))
+        return started, port, viewer
+
+    def test_a_full_disk_is_told_to_viewers(self):
+        started, port, viewer = self.record_on_a_small_disk()
         path = rf"{self.folder}/penduline-\S+\.csv"
         full = viewer.wait_for("note", lambda data: data["kind"] == "warning")
         self.assertRegex(full["text"], f"^{path}: File too large; sampling goes on, and recording "
@@ -131,11 +136,7 @@ class WebTest(LiveRunTest, ProgramTest):
         self.finish(started)
 
     def test_why_a_recording_failed_stands_in_its_last_note(self):
-        started, port = self.start("--rate", "1000", "-o", "/dev/null")
-        resource.prlimit(started.process.pid, resource.RLIMIT_FSIZE,
-                         (20_000, resource.RLIM_INFINITY))
-        viewer = self.viewer(port)
-        self.assertEqual(act(port, "/recording/start"), (200, {}))
+        started, port, viewer = self.record_on_a_small_disk()
         viewer.wait_for("note", lambda data: data["kind"] == "warning")
         status, said = act(port, "/recording/stop")
         self.assertEqual(status, 409)
